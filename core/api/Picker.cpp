@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "base/sequences/Sequences.h"
 #include "calibration/RobotFrameFile.h"
 #include "api/Conversion.h"
 #include "mesh/Symmetries.h"
@@ -84,11 +85,7 @@ PickPlan Picker::planAll(const std::vector<Picker>& pickers, const Detections& f
 {
   const auto start = std::chrono::steady_clock::now();
   const std::vector<int> parts = pickersOf(found, pickers.size());
-  std::vector<PickPlanner*> planners;
-  for (const Picker& picker : pickers)
-  {
-    planners.push_back(picker.Planner.get());
-  }
+  const auto planners = mapped<PickPlanner*>(pickers, [&](const Picker& picker) { return picker.Planner.get(); });
   PickPlan plan;
   if (place.hasBin)
   {

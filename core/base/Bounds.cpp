@@ -2,6 +2,7 @@
 #include "base/Bounds.h"
 
 #include "base/AllVectors.h"
+#include "base/sequences/Quantiles.h"
 
 #include <algorithm>
 #include <limits>
@@ -80,12 +81,9 @@ Eigen::AlignedBox3f innerBounds(const Points& points, double share)
     {
       return box;
     }
-    const auto left = static_cast<std::ptrdiff_t>(share * values.size());
-    std::nth_element(values.begin(), values.begin() + left, values.end());
-    low[axis] = values[left];
-    const auto right = static_cast<std::ptrdiff_t>(values.size()) - 1 - left;
-    std::nth_element(values.begin(), values.begin() + right, values.end());
-    high[axis] = values[right];
+    const auto left = static_cast<std::size_t>(share * values.size());
+    low[axis] = nthOf(values, left);
+    high[axis] = nthOf(values, values.size() - 1 - left);
   }
   return { low, high };
 }

@@ -4,6 +4,7 @@
 #include "base/AllVectors.h"
 #include "base/Frames.h"
 #include "base/Parallel.h"
+#include "base/sequences/Sequences.h"
 
 #include <algorithm>
 #include <atomic>
@@ -20,14 +21,8 @@ template <typename At>
 Points rounded(std::size_t count, int threads, At&& at)
 {
   Points points(count);
-  parallelFor(static_cast<int>(count), threads, {},
-    [&](int begin, int end, int)
-    {
-      for (int i = begin; i < end; ++i)
-      {
-        points[i] = at(static_cast<std::size_t>(i)).template cast<float>();
-      }
-    });
+  parallelForEach(static_cast<int>(count), threads, {},
+    [&](int i) { points[i] = at(static_cast<std::size_t>(i)).template cast<float>(); });
   return points;
 }
 
@@ -116,15 +111,12 @@ Points chosenInFrame(const ScanPoints<Scalar>& scan, const Eigen::Isometry3d& fr
   /// Calls work(block, coordinates, flags, number of points).
   const auto forEachBlock = [&](const auto& work)
   {
-    parallelFor(blocks, threads, {},
-      [&](int begin, int end, int)
+    parallelForEach(blocks, threads, {},
+      [&](int block)
       {
-        for (int block = begin; block < end; ++block)
-        {
-          const std::size_t first = static_cast<std::size_t>(block) * ScanBlock;
-          work(block, scan.xyz + 3 * first, scan.flags ? scan.flags + first : noFlags,
-            static_cast<int>(std::min<std::size_t>(ScanBlock, scan.count - first)));
-        }
+        const std::size_t first = static_cast<std::size_t>(block) * ScanBlock;
+        work(block, scan.xyz + 3 * first, scan.flags ? scan.flags + first : noFlags,
+          static_cast<int>(std::min<std::size_t>(ScanBlock, scan.count - first)));
       });
   };
   std::vector<std::size_t> places(blocks + 1); // of each block's first point
@@ -158,20 +150,15 @@ Points chosenInFrame(const ScanPoints<Scalar>& scan, const Eigen::Isometry3d& fr
   if (isAnyLost)
   {
     const auto isLost = [](const Eigen::Vector3f& point) { return !point.allFinite(); };
-    points.erase(std::remove_if(points.begin(), points.end(), isLost), points.end());
+    eraseIf(points, isLost);
   }
   return points;
 }
 
 PrecisePoints precise(const Points& points)
 {
-  PrecisePoints result;
-  result.reserve(points.size());
-  for (const Eigen::Vector3f& point : points)
-  {
-    result.push_back(point.cast<double>());
-  }
-  return result;
+  return mapped<Eigen::Vector3d>(
+    points, [&](const Eigen::Vector3f& point) -> Eigen::Vector3d { return point.cast<double>(); });
 }
 }
 

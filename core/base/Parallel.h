@@ -15,6 +15,20 @@ int numberOfThreads(int requested);
 /// come out on the calling thread.
 void parallelFor(int count, int threads, const Progress& progress, const std::function<void(int, int, int)>& work);
 
+/// The same of each by itself: work(i).
+template <typename Work>
+void parallelForEach(int count, int threads, const Progress& progress, const Work& work)
+{
+  parallelFor(count, threads, progress,
+    [&](int begin, int end, int)
+    {
+      for (int i = begin; i < end; ++i)
+      {
+        work(i);
+      }
+    });
+}
+
 /// Calls works that do not depend on each other on `threads` threads; exceptions as above.
 void inParallel(int threads, const std::vector<std::function<void()>>& works);
 }

@@ -2,6 +2,7 @@
 #include "base/PointCloud.h"
 
 #include "base/Error.h"
+#include "base/sequences/Sequences.h"
 
 #include <algorithm>
 
@@ -65,12 +66,7 @@ PointCloud finitePoints(PointCloud cloud)
 
 Points moved(const Points& points, const Eigen::Isometry3d& motion)
 {
-  Points result;
-  result.reserve(points.size());
-  for (const auto& point : points)
-  {
-    result.push_back((motion * point.cast<double>()).cast<float>());
-  }
-  return result;
+  return mapped<Eigen::Vector3f>(points,
+    [&](const Eigen::Vector3f& point) -> Eigen::Vector3f { return (motion * point.cast<double>()).cast<float>(); });
 }
 }

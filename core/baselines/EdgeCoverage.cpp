@@ -2,6 +2,7 @@
 #include "baselines/EdgeCoverage.h"
 
 #include "base/Parallel.h"
+#include "base/sequences/Sequences.h"
 #include "pose/verification/PoseVerification.h"
 
 #include <algorithm>
@@ -12,27 +13,21 @@ namespace meam
 void scoreByEdgeCoverage(
   Poses& poses, const Scene& scene, const TrainedModel& model, float tolerance, int threads, const Progress& progress)
 {
-  std::vector<Points> viewEdges;
-  for (std::size_t v = 0; v < model.viewDirections.size(); ++v)
-  {
-    viewEdges.push_back(model.edgesOfView(static_cast<int>(v)).points);
-  }
-  parallelFor(static_cast<int>(poses.size()), threads, progress,
-    [&](int begin, int end, int)
+  const auto viewEdges =
+    ofIndices<Points>(model.viewDirections.size(), [&](int v) { return model.edgesOfView(v).points; });
+  parallelForEach(static_cast<int>(poses.size()), threads, progress,
+    [&](int i)
     {
-      for (int i = begin; i < end; ++i)
-      {
-        Pose& pose = poses[i];
-        pose.viewId = viewOf(pose, scene, model);
-        const Points& edges = viewEdges[pose.viewId];
-        const Eigen::Isometry3f T = pose.T_scene_model.cast<float>();
-        const auto fitted = std::count_if(edges.begin(), edges.end(),
-          [&](const Eigen::Vector3f& point) { return scene.edgeGrid().nearest(T * point, tolerance) >= 0; });
-        pose.score = edges.empty() ? 0.0 : static_cast<double>(fitted) / edges.size();
-        pose.placeProbability = pose.probability = pose.score;
-        pose.evidence = std::log(pose.score / (1.0 - pose.score)); // infinite when all or nothing fits
-        pose.visibleFraction = pose.score;
-      }
+      Pose& pose = poses[i];
+      pose.viewId = viewOf(pose, scene, model);
+      const Points& edges = viewEdges[pose.viewId];
+      const Eigen::Isometry3f T = pose.T_scene_model.cast<float>();
+      const auto fitted = std::count_if(edges.begin(), edges.end(),
+        [&](const Eigen::Vector3f& point) { return scene.edgeGrid().nearest(T * point, tolerance) >= 0; });
+      pose.score = edges.empty() ? 0.0 : static_cast<double>(fitted) / edges.size();
+      pose.placeProbability = pose.probability = pose.score;
+      pose.evidence = std::log(pose.score / (1.0 - pose.score)); // infinite when all or nothing fits
+      pose.visibleFraction = pose.score;
     });
 }
 }

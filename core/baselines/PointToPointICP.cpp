@@ -2,6 +2,7 @@
 #include "baselines/PointToPointICP.h"
 
 #include "base/Parallel.h"
+#include "base/sequences/Sequences.h"
 #include "features/PCLConversion.h"
 #include "pose/refinement/PoseFitter.h"
 
@@ -64,18 +65,9 @@ void refinePointToPoint(Poses& poses, const Scene& scene, const TrainedModel& mo
   const PCLCloud::Ptr target = toPCL(scene.edgePoints().points);
   const SearchTree::Ptr tree = pcl::make_shared<SearchTree>();
   tree->setInputCloud(target);
-  std::vector<PCLCloud::Ptr> views;
-  for (std::size_t v = 0; v < model.viewDirections.size(); ++v)
-  {
-    views.push_back(toPCL(model.edgesOfView(static_cast<int>(v)).points));
-  }
-  parallelFor(static_cast<int>(poses.size()), threads, progress,
-    [&](int begin, int end, int)
-    {
-      for (int i = begin; i < end; ++i)
-      {
-        alignPointToPoint(poses[i], views[poses[i].viewId], target, tree, distance, iterations);
-      }
-    });
+  const auto views =
+    ofIndices<PCLCloud::Ptr>(model.viewDirections.size(), [&](int v) { return toPCL(model.edgesOfView(v).points); });
+  parallelForEach(static_cast<int>(poses.size()), threads, progress,
+    [&](int i) { alignPointToPoint(poses[i], views[poses[i].viewId], target, tree, distance, iterations); });
 }
 }

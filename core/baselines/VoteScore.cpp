@@ -3,6 +3,7 @@
 
 #include "base/Parallel.h"
 #include "base/PointGrid.h"
+#include "base/sequences/Sequences.h"
 #include "pose/PoseTolerances.h"
 #include "pose/verification/PoseVerification.h"
 
@@ -13,25 +14,20 @@ namespace meam
 void scoreByVotes(Poses& poses, const Scene& scene, const TrainedModel& model, int threads)
 {
   const double distance = SamePoseDistance * model.diameter;
-  Points middles;
-  for (const Pose& pose : poses)
-  {
-    middles.emplace_back((pose.T_scene_model * model.visibility->middle().cast<double>()).cast<float>());
-  }
+  const auto middles = mapped<Eigen::Vector3f>(poses,
+    [&](const Pose& pose) -> Eigen::Vector3f
+    { return Eigen::Vector3f((pose.T_scene_model * model.visibility->middle().cast<double>()).cast<float>()); });
   const PointGrid grid(middles, distance);
   std::vector<int> sums(poses.size(), 0);
-  parallelFor(static_cast<int>(poses.size()), threads, {},
-    [&](int begin, int end, int)
+  parallelForEach(static_cast<int>(poses.size()), threads, {},
+    [&](int i)
     {
-      for (int i = begin; i < end; ++i)
-      {
-        grid.forEachWithin(middles[i], distance,
-          [&](int other, float)
-          {
-            const bool agrees = rotationError(poses[i].T_scene_model, poses[other].T_scene_model) < SamePoseAngle;
-            sums[i] += agrees ? poses[other].votes : 0;
-          });
-      }
+      grid.forEachWithin(middles[i], distance,
+        [&](int other, float)
+        {
+          const bool agrees = rotationError(poses[i].T_scene_model, poses[other].T_scene_model) < SamePoseAngle;
+          sums[i] += agrees ? poses[other].votes : 0;
+        });
     });
   const int most = sums.empty() ? 0 : *std::max_element(sums.begin(), sums.end());
   for (std::size_t i = 0; i < poses.size(); ++i)

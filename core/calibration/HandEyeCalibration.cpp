@@ -3,6 +3,7 @@
 
 #include "base/Error.h"
 #include "base/Frames.h"
+#include "base/sequences/Sequences.h"
 #include "scene/Units.h"
 
 #include <opencv2/calib3d.hpp>
@@ -101,12 +102,7 @@ Eigen::Isometry3d meanOf(const std::vector<Eigen::Isometry3d>& poses)
 
 double rootMeanSquare(const std::vector<double>& values)
 {
-  double sum = 0.0;
-  for (const double value : values)
-  {
-    sum += value * value;
-  }
-  return std::sqrt(sum / static_cast<double>(values.size()));
+  return std::sqrt(sumOf(values, [](double value) { return value * value; }) / static_cast<double>(values.size()));
 }
 
 /// The spread of the target when the camera is there.

@@ -2,6 +2,7 @@
 #include "calibration/ModelCalibration.h"
 
 #include "base/Error.h"
+#include "base/sequences/Sequences.h"
 
 #include <Eigen/Dense>
 
@@ -133,12 +134,8 @@ void check(const std::vector<JudgedPose>& poses, std::size_t scenes)
 /// Which fold each pose is in: those of a scene are in one.
 std::vector<int> foldsOf(const std::vector<JudgedPose>& poses, const std::set<int>& scenes)
 {
-  std::vector<int> folds;
-  for (const JudgedPose& pose : poses)
-  {
-    folds.push_back(static_cast<int>(std::distance(scenes.begin(), scenes.find(pose.scene))) % Folds);
-  }
-  return folds;
+  return mapped<int>(poses, [&](const JudgedPose& pose)
+    { return static_cast<int>(std::distance(scenes.begin(), scenes.find(pose.scene))) % Folds; });
 }
 
 /// Lines for each fold, fitted on all others; the identity for all where that is better for the scans left out.

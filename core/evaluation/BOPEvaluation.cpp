@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "evaluation/BOPEvaluation.h"
 
+#include "base/sequences/Sequences.h"
 #include "features/PCLConversion.h"
 #include "mesh/ConvexHull.h"
 #include "mesh/TriangleMesh.h"
@@ -136,12 +137,9 @@ struct BOPEvaluation::Impl
 
   double add(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) const
   {
-    double sum = 0.0;
-    for (const auto& vertex : this->mesh.vertices)
-    {
-      sum += (a * vertex.cast<double>() - b * vertex.cast<double>()).norm();
-    }
-    return sum / this->mesh.vertices.size();
+    const auto apart = [&](const Eigen::Vector3f& vertex)
+    { return (a * vertex.cast<double>() - b * vertex.cast<double>()).norm(); };
+    return sumOf(this->mesh.vertices, apart) / this->mesh.vertices.size();
   }
 
   double adi(const Eigen::Isometry3d& estimate, const Eigen::Isometry3d& truth) const
@@ -305,12 +303,7 @@ namespace
 {
 std::vector<float> distancesOf(const OrganizedCloud& scan)
 {
-  std::vector<float> distances;
-  for (const auto& point : scan.points)
-  {
-    distances.push_back(point.allFinite() ? point.norm() : 0.0f);
-  }
-  return distances;
+  return mapped<float>(scan.points, [&](const auto& point) { return point.allFinite() ? point.norm() : 0.0f; });
 }
 
 /// Whether each true pose has to be found.
@@ -318,12 +311,8 @@ std::vector<char> targetsOf(const Poses& truths)
 {
   const bool isVisibilityKnown =
     std::any_of(truths.begin(), truths.end(), [](const Pose& pose) { return pose.visibleFraction > 0.0; });
-  std::vector<char> isTarget;
-  for (const Pose& truth : truths)
-  {
-    isTarget.push_back(!isVisibilityKnown || truth.visibleFraction >= VisibleShare ? 1 : 0);
-  }
-  return isTarget;
+  return mapped<char>(
+    truths, [&](const Pose& truth) { return !isVisibilityKnown || truth.visibleFraction >= VisibleShare ? 1 : 0; });
 }
 
 /// Of each estimate the true pose that it takes, error(e, t) < threshold, among those that may be taken; or -1.
@@ -429,11 +418,8 @@ BOPRecall BOPEvaluation::recall(
   }
   const Camera camera = cameraOfCloud(scan);
   const std::vector<float> measured = distancesOf(scan);
-  std::vector<Rendering> renderings;
-  for (const Pose& truth : truths)
-  {
-    renderings.push_back(this->Data->render(truth.T_scene_model, camera));
-  }
+  const auto renderings =
+    mapped<Rendering>(truths, [&](const Pose& truth) { return this->Data->render(truth.T_scene_model, camera); });
   // So far apart no threshold of a distance is met; on the image they may still be in the same place.
   const Impl& part = *this->Data;
   const double reach = bopThreshold(BOPThresholds - 1) * part.diameter;

@@ -5,6 +5,8 @@
 #include "base/Frames.h"
 #include "base/Parallel.h"
 #include "base/PointGrid.h"
+#include "base/sequences/Quantiles.h"
+#include "base/sequences/Sequences.h"
 #include "model/AppearanceModel.h"
 #include "scene/Units.h"
 
@@ -223,17 +225,6 @@ struct PointStatistics
   double spacing = 0.0; ///< median distance of a point to its nearest
 };
 
-double quantile(std::vector<double>& values, double share)
-{
-  if (values.empty())
-  {
-    return 0.0;
-  }
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * (values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
-
 /// Lines that meet mostly lie in a plane: the points' distances from it are noise. Where they are curved or there are
 /// several planes these are larger, so a low quantile counts.
 PointStatistics statisticsOf(const Points& edges, const std::vector<int>& kept, const PointGrid& grid, double radius,
@@ -277,7 +268,7 @@ PointStatistics statisticsOf(const Points& edges, const std::vector<int>& kept, 
   { values.erase(std::remove(values.begin(), values.end(), unknown), values.end()); };
   known(deviations);
   known(distances);
-  return { quantile(deviations, NoiseQuantile), quantile(distances, 0.5) };
+  return { quantileOf(deviations, NoiseQuantile), quantileOf(distances, 0.5) };
 }
 
 /// Tangents at the points `kept`, by lines through points of `ends`; with the length of a `segment`, 0 for none, of
@@ -435,11 +426,8 @@ LocalTangents estimate(const Points& local, const Points& given, double partDiam
     works.push_back(
       [&]
       {
-        Points sparse;
-        for (const int i : thinPoints(local, CandidateShare * radius))
-        {
-          sparse.push_back(local[i]);
-        }
+        const auto sparse =
+          mapped<Eigen::Vector3f>(thinPoints(local, CandidateShare * radius), [&](const int i) { return local[i]; });
         ends = PointGrid(sparse, radius);
       });
     works.push_back([&] { grid = PointGrid(local, radius); });

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/ConvexHull.h"
 
+#include "base/sequences/Sequences.h"
+
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Extreme_points_traits_adapter_3.h>
 #include <CGAL/convex_hull_3.h>
@@ -15,12 +17,8 @@ namespace meam
 std::vector<int> convexHullCorners(const std::vector<Eigen::Vector3d>& points)
 {
   using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-  std::vector<Kernel::Point_3> corners;
-  corners.reserve(points.size());
-  for (const auto& point : points)
-  {
-    corners.emplace_back(point.x(), point.y(), point.z());
-  }
+  const auto corners = mapped<Kernel::Point_3>(
+    points, [&](const auto& point) { return Kernel::Point_3(point.x(), point.y(), point.z()); });
   std::vector<std::size_t> all(points.size());
   std::iota(all.begin(), all.end(), std::size_t{ 0 });
   std::vector<std::size_t> extreme;

@@ -2,6 +2,7 @@
 #include "mesh/MeshEdges.h"
 
 #include "base/Error.h"
+#include "base/sequences/Sequences.h"
 
 #include <algorithm>
 #include <cmath>
@@ -52,11 +53,7 @@ struct Step
 
 void sampleChain(const std::vector<Step>& chain, double spacing, std::vector<EdgeSample>& samples)
 {
-  double length = 0.0;
-  for (const auto& step : chain)
-  {
-    length += (step.to - step.from).norm();
-  }
+  const double length = sumOf(chain, [](const Step& step) { return (step.to - step.from).norm(); });
   const double count = std::round(length / spacing);
   if (!(static_cast<double>(samples.size()) + count <= MaximumSamples))
   {

@@ -2,6 +2,7 @@
 #include "mesh/PolygonTriangulation.h"
 
 #include "base/Error.h"
+#include "base/sequences/Sequences.h"
 
 #include <algorithm>
 
@@ -92,9 +93,7 @@ public:
       take(before, at, after);
       this->Next[before] = after;
       this->Previous[after] = before;
-      this->Reflex.erase(std::remove_if(this->Reflex.begin(), this->Reflex.end(),
-                           [&](int k) { return k == at || ((k == before || k == after) && this->turnsLeft(k)); }),
-        this->Reflex.end());
+      eraseIf(this->Reflex, [&](int k) { return k == at || ((k == before || k == after) && this->turnsLeft(k)); });
       at = this->Next[after]; // slivers about one corner are avoided
       --left;
       seen = -1;

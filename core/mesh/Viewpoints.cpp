@@ -2,6 +2,7 @@
 #include "mesh/Viewpoints.h"
 
 #include "base/Error.h"
+#include "base/sequences/Sequences.h"
 
 #include <algorithm>
 #include <cmath>
@@ -59,7 +60,7 @@ Points viewDirections(int count, const Eigen::Vector3d& coneDirection, double co
     directions.resize(count);
     const auto isOutside = [&](const auto& direction)
     { return direction.template cast<double>().dot(axis) < least - BorderOfCone; };
-    directions.erase(std::remove_if(directions.begin(), directions.end(), isOutside), directions.end());
+    eraseIf(directions, isOutside);
     if (directions.empty())
     {
       throw Error("None of the " + std::to_string(count) +

@@ -5,6 +5,7 @@
 #include "base/Frames.h"
 #include "features/PCLConversion.h"
 #include "base/PointGrid.h"
+#include "base/sequences/Quantiles.h"
 #include "mesh/FeatureEdges.h"
 #include "mesh/TriangleMesh.h"
 #include "model/AppearanceModel.h"
@@ -189,13 +190,7 @@ double pointSpacing(const Points& points)
       distances.push_back(*other);
     }
   }
-  if (distances.empty())
-  {
-    return 0.0;
-  }
-  const auto middle = distances.begin() + distances.size() / 2;
-  std::nth_element(distances.begin(), middle, distances.end());
-  return std::sqrt(*middle);
+  return std::sqrt(medianOf(distances));
 }
 
 std::vector<AppearanceModel> extractBoundary(const std::vector<AppearanceModel>& models,

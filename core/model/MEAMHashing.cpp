@@ -5,6 +5,7 @@
 #include "base/Parallel.h"
 #include "base/PointGrid.h"
 #include "base/Range.h"
+#include "base/sequences/Sequences.h"
 #include "mesh/ConvexHull.h"
 #include "mesh/Viewpoints.h"
 #include "model/AppearanceModel.h"
@@ -87,14 +88,9 @@ std::vector<std::uint32_t> visibilityBits(const Points& surface, int directions,
   const Eigen::Vector3d middle = bounds(surface).center().cast<double>();
   const double distance = settings.viewpointDistance * diameter(surface);
   std::vector<std::vector<int>> visible(directions);
-  parallelFor(directions, 0, progress,
-    [&](int begin, int end, int)
-    {
-      for (int c = begin; c < end; ++c)
-      {
-        visible[c] = visiblePoints(surface, middle + distance * towards[c].cast<double>(), settings.radiusFactor);
-      }
-    });
+  parallelForEach(directions, 0, progress,
+    [&](int c)
+    { visible[c] = visiblePoints(surface, middle + distance * towards[c].cast<double>(), settings.radiusFactor); });
   for (int c = 0; c < directions; ++c)
   {
     for (const int i : visible[c])
@@ -172,13 +168,7 @@ int bringVotersForward(TrainedModel& model)
     }
   }
   model.edges = model.edges.subset(order);
-  std::vector<std::uint32_t> views;
-  views.reserve(order.size());
-  for (const int i : order)
-  {
-    views.push_back(model.edgeViews[i]);
-  }
-  model.edgeViews = std::move(views);
+  model.edgeViews = mapped<std::uint32_t>(order, [&](const int i) { return model.edgeViews[i]; });
   return voters;
 }
 

@@ -3,6 +3,7 @@
 
 #include "base/Bounds.h"
 #include "base/PointGrid.h"
+#include "base/sequences/Sequences.h"
 #include "model/BodyInterior.h"
 #include "model/MirrorImage.h"
 
@@ -64,14 +65,8 @@ double TrainedModel::verificationArea() const
 
 PointCloud TrainedModel::edgesOfView(int view) const
 {
-  std::vector<int> members;
-  for (std::size_t i = 0; i < this->edges.size(); ++i)
-  {
-    if (this->edgeViews[i] >> view & 1u)
-    {
-      members.push_back(static_cast<int>(i));
-    }
-  }
+  const std::vector<int> members =
+    indicesWhere(this->edges.size(), [&](int i) { return this->edgeViews[i] >> view & 1u; });
   return this->edges.subset(members);
 }
 

@@ -3,6 +3,7 @@
 
 #include "base/Bounds.h"
 #include "base/Parallel.h"
+#include "base/sequences/Sequences.h"
 #include "mesh/ConvexHull.h"
 #include "mesh/LineOfSight.h"
 #include "mesh/TriangleMesh.h"
@@ -89,23 +90,10 @@ std::vector<int> visiblePoints(
 {
   const int count = static_cast<int>(surface.size());
   std::vector<char> seen(surface.size());
-  parallelFor(count, 0, progress,
-    [&](int begin, int end, int)
-    {
-      for (int i = begin; i < end; ++i)
-      {
-        seen[i] = sight.isSeen(surface.points[i].cast<double>(), surface.normals[i].cast<double>(), viewpoint);
-      }
-    });
-  std::vector<int> visible;
-  for (int i = 0; i < count; ++i)
-  {
-    if (seen[i])
-    {
-      visible.push_back(i);
-    }
-  }
-  return visible;
+  parallelForEach(count, 0, progress,
+    [&](int i)
+    { seen[i] = sight.isSeen(surface.points[i].cast<double>(), surface.normals[i].cast<double>(), viewpoint); });
+  return indicesWhere(count, [&](int i) { return seen[i]; });
 }
 
 std::vector<AppearanceModel> extractVisibility(const PointCloud& surface, const VisibilityExtractionSettings& settings,

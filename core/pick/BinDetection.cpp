@@ -2,6 +2,7 @@
 #include "pick/BinDetection.h"
 
 #include "base/Bounds.h"
+#include "base/sequences/Sequences.h"
 #include "scene/edges/GridSurface.h"
 #include "scene/preparation/BackgroundRemoval.h"
 
@@ -54,11 +55,8 @@ using PlanePoints = std::vector<Eigen::Vector2d>;
 
 Rectangle smallestAround(const PlanePoints& points)
 {
-  std::vector<cv::Point2f> flat;
-  for (const auto& point : points)
-  {
-    flat.emplace_back(static_cast<float>(point.x()), static_cast<float>(point.y()));
-  }
+  const auto flat = mapped<cv::Point2f>(points,
+    [&](const auto& point) { return cv::Point2f(static_cast<float>(point.x()), static_cast<float>(point.y())); });
   const cv::RotatedRect found = cv::minAreaRect(flat);
   const double angle = found.angle * M_PI / 180.0;
   return { { found.center.x, found.center.y }, { std::cos(angle), std::sin(angle) },

@@ -160,20 +160,17 @@ Grasps candidates(const std::vector<ContactPlace>& places, const GraspJudge& jud
   const ProposeSettings& settings, const Progress& progress)
 {
   std::vector<Grasps> found(places.size());
-  parallelFor(static_cast<int>(places.size()), numberOfThreads(settings.threads), progress,
-    [&](int begin, int end, int)
+  parallelForEach(static_cast<int>(places.size()), numberOfThreads(settings.threads), progress,
+    [&](int i)
     {
-      for (int i = begin; i < end; ++i)
+      const Grasps tried = gripper.kind == GraspKind::Suction ? cupGrasps(places[i])
+                                                              : jawGrasps(places[i], judge.rays(), gripper, settings);
+      for (Grasp grasp : tried)
       {
-        const Grasps tried = gripper.kind == GraspKind::Suction ? cupGrasps(places[i])
-                                                                : jawGrasps(places[i], judge.rays(), gripper, settings);
-        for (Grasp grasp : tried)
+        if (const auto contact = judge.contact(grasp))
         {
-          if (const auto contact = judge.contact(grasp))
-          {
-            grasp.quality = std::round(judge.quality(grasp, *contact) * QualitySteps) / QualitySteps;
-            found[i].push_back(grasp);
-          }
+          grasp.quality = std::round(judge.quality(grasp, *contact) * QualitySteps) / QualitySteps;
+          found[i].push_back(grasp);
         }
       }
     });

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pick/GraspTurns.h"
 
+#include "base/sequences/Sequences.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -15,13 +17,8 @@ constexpr double SamePlace = 0.001; // of the part's size
 std::vector<Eigen::Isometry3d> turnsAbout(const Eigen::Vector3d& axis, const Eigen::Vector3d& centre, double step)
 {
   const int count = std::max(1, static_cast<int>(std::lround(360.0 / step)));
-  std::vector<Eigen::Isometry3d> turns;
-  turns.reserve(count);
-  for (int k = 0; k < count; ++k)
-  {
-    turns.push_back(turnAbout(axis, 2.0 * M_PI * k / count, centre));
-  }
-  return turns;
+  return ofIndices<Eigen::Isometry3d>(
+    count, [&](int k) -> Eigen::Isometry3d { return turnAbout(axis, 2.0 * M_PI * k / count, centre); });
 }
 
 }

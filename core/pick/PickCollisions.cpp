@@ -2,6 +2,7 @@
 #include "pick/PickCollisions.h"
 
 #include "base/PointCloud.h"
+#include "base/sequences/Sequences.h"
 
 #include <fcl/fcl.h>
 #include <octomap/octomap.h>
@@ -18,16 +19,10 @@ using Geometry = std::shared_ptr<fcl::CollisionGeometryd>;
 
 Geometry geometryOf(const TriangleMesh& mesh)
 {
-  std::vector<fcl::Vector3d> vertices;
-  for (const auto& vertex : mesh.vertices)
-  {
-    vertices.push_back(vertex.cast<double>());
-  }
-  std::vector<fcl::Triangle> triangles;
-  for (const auto& triangle : mesh.triangles)
-  {
-    triangles.emplace_back(triangle.x(), triangle.y(), triangle.z());
-  }
+  const auto vertices = mapped<fcl::Vector3d>(
+    mesh.vertices, [&](const Eigen::Vector3f& vertex) -> fcl::Vector3d { return vertex.cast<double>(); });
+  const auto triangles = mapped<fcl::Triangle>(
+    mesh.triangles, [&](const auto& triangle) { return fcl::Triangle(triangle.x(), triangle.y(), triangle.z()); });
   auto model = std::make_shared<fcl::BVHModel<fcl::OBBRSSd>>();
   model->beginModel(static_cast<int>(triangles.size()), static_cast<int>(vertices.size()));
   model->addSubModel(vertices, triangles);
@@ -195,11 +190,10 @@ Clearance PickCollisions::clearance(
 {
   const World& world = *this->Objects;
   const std::vector<Placed> moving = placedGripper(world.gripper, world.gripperMesh, grasp, T_scene_grasp, wayIn, step);
-  std::vector<Placed> between;
-  for (const GripperPiece& piece : betweenJaws(world.gripper, grasp))
-  {
-    between.push_back({ geometryOf(piece), T_scene_grasp * Eigen::Translation3d(piece.middle), Obstacle::None, -1 });
-  }
+  const auto between = mapped<Placed>(betweenJaws(world.gripper, grasp),
+    [&](const GripperPiece& piece) {
+      return Placed{ geometryOf(piece), T_scene_grasp * Eigen::Translation3d(piece.middle), Obstacle::None, -1 };
+    });
   Clearance nearest{ most, Obstacle::None, -1 };
   for (const auto* obstacles : { &world.bin, &world.instances, &world.measured })
   {

@@ -2,6 +2,7 @@
 #include "pose/PartsEstimation.h"
 
 #include "base/Error.h"
+#include "base/sequences/Sequences.h"
 #include "pose/PoseSearch.h"
 #include "pose/PoseTolerances.h"
 #include "pose/Stopwatch.h"
@@ -152,11 +153,10 @@ private:
     }
     this->Told.isCutShort = this->Told.isCutShort || this->Settings.deadline.hasStruck();
     Stopwatch watch;
-    std::vector<PartDetections> detections;
-    for (std::size_t part = 0; part < this->Models.size(); ++part)
-    {
-      detections.push_back({ *this->Scenes[part], *this->Models[part], this->Found[part] });
-    }
+    const auto detections = ofIndices<PartDetections>(this->Models.size(),
+      [&](int part) {
+        return PartDetections{ *this->Scenes[part], *this->Models[part], this->Found[part] };
+      });
     ConflictResolutionSettings conflicts;
     conflicts.maximumPoses = this->Settings.selection.maximumPoses;
     conflicts.threads = this->Settings.selection.threads;

@@ -2,6 +2,7 @@
 #include "pose/Pose.h"
 
 #include "base/Error.h"
+#include "base/sequences/Sequences.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -69,12 +70,8 @@ Poses toLocalFrame(const Poses& poses, const Eigen::Isometry3d& T_local_scene, c
 
 Poses toSceneFrame(const Poses& poses, const Eigen::Isometry3d& T_local_scene, const Symmetries& symmetries)
 {
-  Poses result;
-  for (const Pose& pose : poses)
-  {
-    result.push_back(leastTurned(moved(pose, T_local_scene.inverse()), symmetries));
-  }
-  return result;
+  return mapped<Pose>(
+    poses, [&](const Pose& pose) { return leastTurned(moved(pose, T_local_scene.inverse()), symmetries); });
 }
 
 std::string describe(const Poses& poses)

@@ -3,6 +3,8 @@
 
 #include "pose/Pose.h"
 
+#include "base/sequences/Sequences.h"
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -29,13 +31,7 @@ public:
     {
       this->Known.emplace(keyOf(unknown[k]), computed[k]);
     }
-    std::vector<Result> results;
-    results.reserve(poses.size());
-    for (const Pose& pose : poses)
-    {
-      results.push_back(this->Known.at(keyOf(pose)));
-    }
-    return results;
+    return mapped<Result>(poses, [&](const Pose& pose) { return this->Known.at(keyOf(pose)); });
   }
 
   /// Of how many poses it knows the results.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/PoseSearch.h"
 
+#include "base/sequences/Sequences.h"
 #include "pose/PoseTolerances.h"
 #include "pose/Stopwatch.h"
 #include "scene/preparation/SearchRegion.h"
@@ -65,9 +66,7 @@ void PoseSearch::upTo(double share, int wanted, const Progress& progress)
   }
   Poses candidates = this->Search->upTo(share, subProgress(progress, 0.0, 0.5));
   this->Told.work.references += this->Search->references() - votersBefore;
-  candidates.erase(
-    std::remove_if(candidates.begin(), candidates.end(), [this](const Pose& pose) { return this->isOutside(pose); }),
-    candidates.end());
+  eraseIf(candidates, [this](const Pose& pose) { return this->isOutside(pose); });
   this->Told.times.detection += watch.lap();
   this->rank(std::move(candidates), wanted, subProgress(progress, 0.5, 1.0));
 }

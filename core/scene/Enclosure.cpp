@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/Enclosure.h"
 
+#include "base/sequences/Sequences.h"
+
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
@@ -110,9 +112,7 @@ std::vector<Plane> enclosingPlanes(const DepthMap& depth, const Sensor& sensor, 
     {
       planes.push_back(fit.plane);
     }
-    left.erase(std::remove_if(left.begin(), left.end(),
-                 [&](const Eigen::Vector3f& point) { return fit.plane.absDistance(point) <= tolerance; }),
-      left.end());
+    eraseIf(left, [&](const Eigen::Vector3f& point) { return fit.plane.absDistance(point) <= tolerance; });
   }
   return planes;
 }

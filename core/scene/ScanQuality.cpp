@@ -3,6 +3,7 @@
 
 #include "base/Error.h"
 #include "base/Parallel.h"
+#include "base/sequences/Quantiles.h"
 #include "scene/OrganizedCloud.h"
 
 #include <algorithm>
@@ -27,18 +28,6 @@ constexpr double LongestGap = 0.02; // of a row: a longer hole is not one that a
 // Standard deviations, the mean of the half of a normal distribution that is nearest to 0.
 constexpr double SmallerHalf = 0.3247;          // of that distribution
 const double ThirdDifference = std::sqrt(20.0); // standard deviations, of points that share no noise
-
-/// 0 without values.
-double quantileOf(std::vector<float>& values, double quantile)
-{
-  if (values.empty())
-  {
-    return 0.0;
-  }
-  const auto place = values.begin() + static_cast<std::ptrdiff_t>(quantile * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), place, values.end());
-  return *place;
-}
 
 /// Every so many rows.
 int strideOf(const OrganizedCloud& cloud)

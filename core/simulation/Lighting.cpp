@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulation/Lighting.h"
 
+#include "base/sequences/Sequences.h"
+
 #include <cmath>
 #include <limits>
 
@@ -166,12 +168,8 @@ std::vector<Eigen::Vector3f> illuminate(const View& view, const Camera& camera, 
   const std::vector<double> surroundings = boxMean(view.depths, camera.width, camera.height, around);
   report(progress, 0.4);
   const Eigen::Isometry3d T_scene_camera = camera.T_camera_scene.inverse();
-  std::vector<Eigen::Isometry3d> T_model_scene;
-  T_model_scene.reserve(bodies.size());
-  for (const Body& body : bodies)
-  {
-    T_model_scene.push_back(body.T_scene_model.inverse());
-  }
+  const auto T_model_scene =
+    mapped<Eigen::Isometry3d>(bodies, [&](const Body& body) { return body.T_scene_model.inverse(); });
   std::vector<Eigen::Vector3f> colors(view.depths.size());
   for (std::size_t i = 0; i < colors.size(); ++i)
   {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulation/TimeOfFlight.h"
 
+#include "base/sequences/Sequences.h"
+
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
@@ -107,11 +109,6 @@ std::vector<double> mixedDepths(
   }
   cv::GaussianBlur(weights, weights, cv::Size(), sigma);
   cv::GaussianBlur(ranges, ranges, cv::Size(), sigma);
-  std::vector<double> mixed;
-  for (std::size_t i = 0; i < depths.size(); ++i)
-  {
-    mixed.push_back(ranges.at<double>(static_cast<int>(i)) / weights.at<double>(static_cast<int>(i)));
-  }
-  return mixed;
+  return ofIndices<double>(depths.size(), [&](int i) { return ranges.at<double>(i) / weights.at<double>(i); });
 }
 }

@@ -2,6 +2,7 @@
 #include "simulation/VirtualSensor.h"
 
 #include "base/Range.h"
+#include "base/sequences/Sequences.h"
 #include "simulation/StereoMatching.h"
 #include "simulation/TimeOfFlight.h"
 
@@ -87,12 +88,7 @@ std::vector<double> stereoDepths(const std::vector<double>& depths, const Camera
   const std::vector<double>& noise, std::vector<bool>& hidden)
 {
   const double scale = camera.fx * quality.stereoBaseline;
-  std::vector<double> disparities;
-  disparities.reserve(depths.size());
-  for (const double depth : depths)
-  {
-    disparities.push_back(scale / depth);
-  }
+  auto disparities = mapped<double>(depths, [&](const double depth) { return scale / depth; });
   hidden = halfOccluded(disparities, camera.width);
   disparities = boxMeans(disparities, camera.width, camera.height, quality.smoothingWindow);
   std::vector<double> measured;

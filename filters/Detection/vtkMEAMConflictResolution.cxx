@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMEAMConflictResolution.h"
 
+#include "base/sequences/Sequences.h"
 #include "pose/search/ConflictResolution.h"
 #include "vtkMEAMPoseConversion.h"
 #include "vtkMEAMRun.h"
@@ -92,12 +93,10 @@ int vtkMEAMConflictResolution::RequestData(
         part.input = toPoses(found);
         parts.push_back(part);
       }
-      std::vector<meam::PartDetections> detections;
-      detections.reserve(parts.size());
-      for (const Part& part : parts)
-      {
-        detections.push_back({ *part.scene, *part.model, part.found->poses });
-      }
+      const auto detections = meam::mapped<meam::PartDetections>(parts,
+        [&](const Part& part) {
+          return meam::PartDetections{ *part.scene, *part.model, part.found->poses };
+        });
       this->Settings->threads = this->NumberOfThreads;
       const std::vector<meam::PartPose> stay = meam::resolveConflicts(detections, *this->Settings, progressOf(this));
       meam::Poses poses;

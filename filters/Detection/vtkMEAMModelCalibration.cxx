@@ -2,6 +2,7 @@
 #include "vtkMEAMModelCalibration.h"
 
 #include "base/Error.h"
+#include "base/sequences/Sequences.h"
 #include "vtkMEAMArrays.h"
 #include "vtkMEAMModelConversion.h"
 #include "vtkMEAMRun.h"
@@ -41,13 +42,13 @@ std::vector<meam::JudgedPose> toJudgedPoses(vtkPolyData* input)
   vtkDataArray* scene = judgedArray(input, "Scene");
   vtkDataArray* isThere = judgedArray(input, "CopyIsThere");
   vtkDataArray* outcome = judgedArray(input, "PoseOutcome");
-  std::vector<meam::JudgedPose> poses;
-  for (vtkIdType k = 0; k < input->GetNumberOfPoints(); ++k)
-  {
-    poses.push_back({ place->GetComponent(k, 0), certainty->GetComponent(k, 0), isThere->GetComponent(k, 0) != 0.0,
-      outcome->GetComponent(k, 0) == 0.0, static_cast<int>(scene->GetComponent(k, 0)) });
-  }
-  return poses;
+  return meam::ofIndices<meam::JudgedPose>(input->GetNumberOfPoints(),
+    [&](int k)
+    {
+      return meam::JudgedPose{ place->GetComponent(k, 0), certainty->GetComponent(k, 0),
+        isThere->GetComponent(k, 0) != 0.0, outcome->GetComponent(k, 0) == 0.0,
+        static_cast<int>(scene->GetComponent(k, 0)) };
+    });
 }
 
 void fromReport(const meam::CalibrationReport& report, vtkTable* output)

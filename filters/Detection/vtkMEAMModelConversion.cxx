@@ -2,6 +2,7 @@
 #include "vtkMEAMModelConversion.h"
 
 #include "base/Error.h"
+#include "base/sequences/Sequences.h"
 #include "model/AppearanceModel.h"
 #include "model/ModelValidation.h"
 #include "vtkMEAMArrays.h"
@@ -459,14 +460,8 @@ void fromTrainedModel(const meam::TrainedModel& model, vtkPartitionedDataSetColl
 {
   for (std::size_t v = 0; v < model.viewDirections.size(); ++v)
   {
-    std::vector<int> members;
-    for (std::size_t i = 0; i < model.edges.size(); ++i)
-    {
-      if (model.edgeViews[i] >> v & 1u)
-      {
-        members.push_back(static_cast<int>(i));
-      }
-    }
+    const std::vector<int> members =
+      meam::indicesWhere(model.edges.size(), [&](int i) { return model.edgeViews[i] >> v & 1u; });
     vtkNew<vtkPolyData> view;
     fromCloud(model.edges.subset(members), view);
     setView(view, model.viewDirections[v], v);

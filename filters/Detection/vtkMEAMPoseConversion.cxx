@@ -8,15 +8,15 @@
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkIntArray.h"
-#include "vtkNew.h"
 #include "vtkPointData.h"
-#include "vtkPoints.h"
 #include "vtkPolyData.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace vtkMEAMConversion
@@ -26,6 +26,7 @@ namespace
 constexpr double ExactRotation = 1e-9; // of a file with few decimals it is not
 
 using meam::Error;
+using meam::Pose;
 }
 
 meam::Poses toPoses(vtkPolyData* input)
@@ -46,14 +47,6 @@ meam::Poses toPoses(vtkPolyData* input)
   {
     throw Error("The poses are grasps on a part: use the output of MEAMPoseEstimation or of a pose file.");
   }
-  vtkDataArray* scores = pointArray(input, "Score", 1);
-  vtkDataArray* votes = pointArray(input, "Votes", 1);
-  vtkDataArray* views = pointArray(input, "ViewId", 1);
-  vtkDataArray* fractions = pointArray(input, "VisibleFraction", 1);
-  vtkDataArray* certainties = pointArray(input, "Certainty", 1);
-  vtkDataArray* places = pointArray(input, "PlaceProbability", 1);
-  vtkDataArray* probabilities = pointArray(input, "Probability", 1);
-  vtkDataArray* evidence = pointArray(input, "Evidence", 1);
   vtkDataArray* residuals = pointArray(input, "Residual", 1);
   vtkDataArray* iterations = pointArray(input, "Iterations", 1);
   vtkDataArray* covariances = pointArray(input, "Covariance", 36);
@@ -77,19 +70,6 @@ meam::Poses toPoses(vtkPolyData* input)
     {
       pose.T_scene_model.linear() = Eigen::Quaterniond(rotation).normalized().toRotationMatrix();
     }
-    pose.score = scores ? scores->GetComponent(i, 0) : 0.0;
-    pose.votes = votes ? static_cast<int>(votes->GetComponent(i, 0)) : 0;
-    pose.viewId = views ? static_cast<int>(views->GetComponent(i, 0)) : -1;
-    const auto known = [i](vtkDataArray* array, double unknown)
-    {
-      const double value = array ? array->GetComponent(i, 0) : unknown;
-      return std::isnan(value) ? unknown : value;
-    };
-    pose.visibleFraction = known(fractions, 0.0);
-    pose.certainty = known(certainties, 1.0);
-    pose.placeProbability = known(places, 0.0);
-    pose.probability = known(probabilities, 0.0);
-    pose.evidence = evidence ? evidence->GetComponent(i, 0) : 0.0;
     if (residuals && iterations && covariances && constrained && axes)
     {
       pose.fit.residual = residuals->GetComponent(i, 0);
@@ -100,84 +80,71 @@ meam::Poses toPoses(vtkPolyData* input)
     }
     poses.push_back(pose);
   }
+  // What is not there, or of a pose not a number, is as of a pose of which nothing is known.
+  const auto take = [&](const char* name, auto Pose::*member)
+  {
+    vtkDataArray* array = pointArray(input, name, 1);
+    for (vtkIdType i = 0; array && i < count; ++i)
+    {
+      const double value = array->GetComponent(i, 0);
+      if (!std::isnan(value))
+      {
+        poses[i].*member = static_cast<std::decay_t<decltype(poses[i].*member)>>(value);
+      }
+    }
+  };
+  take("Score", &Pose::score);
+  take("PlaceProbability", &Pose::placeProbability);
+  take("Probability", &Pose::probability);
+  take("Evidence", &Pose::evidence);
+  take("Votes", &Pose::votes);
+  take("ViewId", &Pose::viewId);
+  take("VisibleFraction", &Pose::visibleFraction);
+  take("Certainty", &Pose::certainty);
   return poses;
 }
 
 void fromPoses(const meam::Poses& poses, vtkPolyData* output)
 {
-  const auto count = static_cast<vtkIdType>(poses.size());
-  const auto doubles = [&](const char* name, int components)
+  setFrames(poses, &Pose::T_scene_model, output);
+  const auto add = [&](const auto& array) { output->GetPointData()->AddArray(array); };
+  /// A vector of each pose.
+  const auto addVectors = [&](const char* name, int components, const auto& vectorOf)
   {
-    vtkNew<vtkDoubleArray> array;
-    array->SetName(name);
-    array->SetNumberOfComponents(components);
-    array->SetNumberOfTuples(count);
-    output->GetPointData()->AddArray(array);
-    return array->GetPointer(0); // the point data keeps it
-  };
-  const auto integers = [&](const char* name)
-  {
-    vtkNew<vtkIntArray> array;
-    array->SetName(name);
-    array->SetNumberOfTuples(count);
-    output->GetPointData()->AddArray(array);
-    return array->GetPointer(0);
-  };
-  double* transform = doubles("Transform", 16);
-  double* quaternion = doubles("Quaternion", 4);
-  double* score = doubles("Score", 1);
-  double* place = doubles("PlaceProbability", 1);
-  double* probability = doubles("Probability", 1);
-  double* evidence = doubles("Evidence", 1);
-  int* votes = integers("Votes");
-  int* view = integers("ViewId");
-  double* fraction = doubles("VisibleFraction", 1);
-  double* certainty = doubles("Certainty", 1);
-  int* rank = integers("Rank");
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  points->SetNumberOfPoints(count);
-  for (vtkIdType i = 0; i < count; ++i)
-  {
-    const meam::Pose& pose = poses[i];
-    Eigen::Map<Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(transform + 16 * i) = pose.T_scene_model.matrix();
-    Eigen::Quaterniond turn(pose.T_scene_model.linear());
-    turn.normalize();
-    if (turn.w() < 0.0)
+    std::vector<double> values;
+    for (const Pose& pose : poses)
     {
-      turn.coeffs() *= -1.0;
+      const auto vector = vectorOf(pose);
+      values.insert(values.end(), vector.data(), vector.data() + components);
     }
-    Eigen::Map<Eigen::Vector4d>(quaternion + 4 * i) = turn.coeffs(); // x y z w
-    score[i] = pose.score;
-    votes[i] = pose.votes;
-    view[i] = pose.viewId;
-    fraction[i] = pose.visibleFraction;
-    certainty[i] = pose.certainty;
-    place[i] = pose.placeProbability;
-    probability[i] = pose.probability;
-    evidence[i] = pose.evidence;
-    rank[i] = static_cast<int>(i) + 1;
-    points->SetPoint(i, pose.T_scene_model.translation().data());
-  }
-  if (std::any_of(poses.begin(), poses.end(), [](const meam::Pose& pose) { return pose.fit.iterations > 0; }))
+    add(arrayOf<vtkDoubleArray>(name, values, components));
+  };
+  const auto quaternionOf = [](const Pose& pose) -> Eigen::Vector4d
   {
-    double* residual = doubles("Residual", 1);
-    int* iterations = integers("Iterations");
-    double* covariance = doubles("Covariance", 36);
-    int* constrained = integers("ConstrainedDegreesOfFreedom");
-    double* axes = doubles("ConstrainedAxes", 6);
-    for (vtkIdType i = 0; i < count; ++i)
-    {
-      const meam::PoseFit& fit = poses[i].fit;
-      residual[i] = fit.residual;
-      iterations[i] = fit.iterations;
-      Eigen::Map<Eigen::Matrix<double, 6, 6>>(covariance + 36 * i) = fit.covariance; // symmetric
-      constrained[i] = fit.constrained;
-      Eigen::Map<Eigen::Matrix<double, 6, 1>>(axes + 6 * i) = fit.constrainedAxes;
-    }
+    const Eigen::Quaterniond turn = Eigen::Quaterniond(pose.T_scene_model.linear()).normalized();
+    return turn.w() < 0.0 ? Eigen::Vector4d(-turn.coeffs()) : turn.coeffs(); // x y z w
+  };
+  addVectors("Quaternion", 4, quaternionOf);
+  add(columnOf<vtkDoubleArray>("Score", poses, &Pose::score));
+  add(columnOf<vtkDoubleArray>("PlaceProbability", poses, &Pose::placeProbability));
+  add(columnOf<vtkDoubleArray>("Probability", poses, &Pose::probability));
+  add(columnOf<vtkDoubleArray>("Evidence", poses, &Pose::evidence));
+  add(columnOf<vtkIntArray>("Votes", poses, &Pose::votes));
+  add(columnOf<vtkIntArray>("ViewId", poses, &Pose::viewId));
+  add(columnOf<vtkDoubleArray>("VisibleFraction", poses, &Pose::visibleFraction));
+  add(columnOf<vtkDoubleArray>("Certainty", poses, &Pose::certainty));
+  std::vector<int> ranks(poses.size());
+  std::iota(ranks.begin(), ranks.end(), 1);
+  add(arrayOf<vtkIntArray>("Rank", ranks));
+  if (std::any_of(poses.begin(), poses.end(), [](const Pose& pose) { return pose.fit.iterations > 0; }))
+  {
+    add(columnOf<vtkDoubleArray>("Residual", poses, [](const Pose& pose) { return pose.fit.residual; }));
+    add(columnOf<vtkIntArray>("Iterations", poses, [](const Pose& pose) { return pose.fit.iterations; }));
+    addVectors("Covariance", 36, [](const Pose& pose) { return pose.fit.covariance; }); // symmetric
+    add(columnOf<vtkIntArray>(
+      "ConstrainedDegreesOfFreedom", poses, [](const Pose& pose) { return pose.fit.constrained; }));
+    addVectors("ConstrainedAxes", 6, [](const Pose& pose) { return pose.fit.constrainedAxes; });
   }
-  output->SetPoints(points);
-  addVertices(output);
   output->GetPointData()->SetActiveScalars("Score");
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMEAMPoseDiagnosis.h"
 
+#include "base/sequences/Sequences.h"
 #include "pose/diagnosis/DiagnosisReport.h"
 #include "pose/diagnosis/PartsDiagnosis.h"
 #include "vtkMEAMArrays.h"
@@ -151,12 +152,7 @@ struct vtkMEAMPoseDiagnosis::Detection
 
   static std::vector<const meam::TrainedModel*> modelsOf(const Work& work)
   {
-    std::vector<const meam::TrainedModel*> models;
-    for (const auto& part : work.parts)
-    {
-      models.push_back(part->model.get());
-    }
-    return models;
+    return meam::mapped<const meam::TrainedModel*>(work.parts, [&](const auto& part) { return part->model.get(); });
   }
 
   std::vector<double> made;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMEAMPoseInstances.h"
 
+#include "base/sequences/Sequences.h"
 #include "vtkMEAMArrays.h"
 #include "vtkMEAMInstanceConversion.h"
 #include "vtkMEAMPoseConversion.h"
@@ -61,11 +62,8 @@ int vtkMEAMPoseInstances::RequestData(
       vtkDataArray* ranks = posesInput->GetPointData()->GetArray("Rank");
       const auto rankOf = [&](std::size_t k)
       { return ranks ? std::max(1, static_cast<int>(ranks->GetComponent(k, 0))) : static_cast<int>(k) + 1; };
-      std::vector<vtkPolyData*> meshes;
-      for (int type = 0; type < inputVector[1]->GetNumberOfInformationObjects(); ++type)
-      {
-        meshes.push_back(vtkPolyData::GetData(inputVector[1], type));
-      }
+      const auto meshes = meam::ofIndices<vtkPolyData*>(inputVector[1]->GetNumberOfInformationObjects(),
+        [&](int type) { return vtkPolyData::GetData(inputVector[1], type); });
       const std::vector<int> types = vtkMEAMConversion::typesOf(posesInput, static_cast<int>(meshes.size()));
       if (meshes.size() == 1)
       {
@@ -73,11 +71,10 @@ int vtkMEAMPoseInstances::RequestData(
       }
       else
       {
-        std::vector<meam::PartPose> ofTypes;
-        for (std::size_t k = 0; k < poses.size(); ++k)
-        {
-          ofTypes.push_back({ types[k], static_cast<int>(k), poses[k] });
-        }
+        const auto ofTypes = meam::ofIndices<meam::PartPose>(poses.size(),
+          [&](int k) {
+            return meam::PartPose{ types[k], k, poses[k] };
+          });
         vtkMEAMConversion::fromInstances(meshes, ofTypes, rankOf, *this->Settings, progress, output);
       }
       vtkMEAMConversion::fromAnswer(

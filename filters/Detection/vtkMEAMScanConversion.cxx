@@ -3,6 +3,7 @@
 
 #include "base/Error.h"
 #include "base/Parallel.h"
+#include "base/sequences/Sequences.h"
 #include "io/CameraFile.h"
 #include "scene/MeasuredCloud.h"
 #include "vtkMEAMArrays.h"
@@ -266,14 +267,8 @@ void fromImage(const meam::Image& image, vtkImageData* output)
 void fromMeasuredCloud(const meam::MeasuredCloud& measured, vtkPointSet* output)
 {
   auto* grid = vtkStructuredGrid::SafeDownCast(output);
-  std::vector<int> kept;
-  for (std::size_t i = 0; i < measured.cloud.size(); ++i)
-  {
-    if (grid || measured.cloud.points[i].allFinite())
-    {
-      kept.push_back(static_cast<int>(i));
-    }
-  }
+  const std::vector<int> kept =
+    meam::indicesWhere(measured.cloud.size(), [&](int i) { return grid || measured.cloud.points[i].allFinite(); });
   if (grid)
   {
     fromOrganizedCloud(measured.cloud, grid);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMEAMPickTrial.h"
 
+#include "base/sequences/Sequences.h"
 #include "pick/PickTrial.h"
 #include "vtkMEAMArrays.h"
 #include "vtkMEAMGraspConversion.h"
@@ -57,11 +58,8 @@ int vtkMEAMPickTrial::RequestData(
       const meam::Grasps picks = toGrasps(picksInput); // their frames are the scene's
       const std::vector<bool> possible = possiblePicks(picksInput);
       const meam::TriangleMesh mesh = toMesh(part);
-      std::vector<Eigen::Isometry3d> truths;
-      for (const meam::Pose& pose : toPoses(truthInput))
-      {
-        truths.push_back(pose.T_scene_model);
-      }
+      const auto truths = meam::mapped<Eigen::Isometry3d>(
+        toPoses(truthInput), [&](const meam::Pose& pose) { return pose.T_scene_model; });
       std::optional<meam::Bin> bin = binOf(truthInput);
       if (!bin)
       {

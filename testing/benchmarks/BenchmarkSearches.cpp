@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BenchmarkScene.h"
+#include "base/sequences/Sequences.h"
 #include "io/PCDFile.h"
 #include "mesh/TriangleMesh.h"
 #include "mesh/preparation/MeshPreparation.h"
@@ -65,11 +66,9 @@ const Seen& seenBrackets(int copies)
     [&]
     {
       const int inRow = static_cast<int>(std::ceil(std::sqrt(copies)));
-      std::vector<Eigen::Isometry3d> poses;
-      for (int i = 0; i < copies; ++i)
-      {
-        poses.push_back(lying(80.0 * (i % inRow), 80.0 * (i / inRow), 37.0 * i, i % 2 == 0));
-      }
+      const auto poses = meam::ofIndices<Eigen::Isometry3d>(copies,
+        [&](int i) -> Eigen::Isometry3d
+        { return lying(80.0 * (i % inRow), 80.0 * (i / inRow), 37.0 * i, i % 2 == 0); });
       return seenFromAbove(poses);
     });
 }

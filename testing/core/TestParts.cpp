@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TestParts.h"
 
+#include "base/sequences/Sequences.h"
 #include "mesh/SurfaceSampling.h"
 
 #include <cmath>
@@ -215,13 +216,10 @@ double area(const meam::TriangleMesh& mesh)
 
 double volume(const meam::TriangleMesh& mesh)
 {
-  double six = 0.0;
-  for (const auto& t : mesh.triangles)
-  {
-    six += mesh.vertices[t[0]].cast<double>().dot(
-      mesh.vertices[t[1]].cast<double>().cross(mesh.vertices[t[2]].cast<double>()));
-  }
-  return six / 6.0;
+  const auto corner = [&](int vertex) -> Eigen::Vector3d { return mesh.vertices[vertex].cast<double>(); };
+  return meam::sumOf(
+           mesh.triangles, [&](const auto& t) { return corner(t[0]).dot(corner(t[1]).cross(corner(t[2]))); }) /
+         6.0;
 }
 
 meam::PointCloud sampled(const meam::TriangleMesh& mesh, double spacing)
@@ -287,12 +285,7 @@ meam::PointCloud moved(const meam::PointCloud& cloud, const Eigen::Isometry3d& T
 
 meam::PrecisePoints moved(const meam::PrecisePoints& points, const Eigen::Isometry3d& T)
 {
-  meam::PrecisePoints result;
-  for (const auto& point : points)
-  {
-    result.push_back(T * point);
-  }
-  return result;
+  return meam::mapped<Eigen::Vector3d>(points, [&](const auto& point) -> Eigen::Vector3d { return T * point; });
 }
 
 meam::Points lattice(
@@ -312,6 +305,8 @@ meam::Points lattice(const Eigen::Vector2f& low, const Eigen::Vector2f& high, fl
 {
   return lattice(low, high, step, [z](float, float) { return z; });
 }
+
+void add(meam::Points& points, const meam::Points& more) { points.insert(points.end(), more.begin(), more.end()); }
 
 meam::PointCloud facing(const meam::Points& points, const Eigen::Vector3f& normal)
 {
@@ -338,24 +333,16 @@ meam::PointCloud scatteredEdges(int count, double reach)
 
 meam::PrecisePoints precise(const meam::Points& points)
 {
-  meam::PrecisePoints result;
-  for (const auto& point : points)
-  {
-    result.push_back(point.cast<double>());
-  }
-  return result;
+  return meam::mapped<Eigen::Vector3d>(
+    points, [&](const Eigen::Vector3f& point) -> Eigen::Vector3d { return point.cast<double>(); });
 }
 
 meam::PrecisePoints skewed(int count)
 {
   std::mt19937 random(4);
   std::gamma_distribution<double> distance(2.0, 1.0);
-  meam::PrecisePoints points;
-  for (int i = 0; i < count; ++i)
-  {
-    points.emplace_back(90.0 * distance(random), 40.0 * distance(random), 10.0 * distance(random));
-  }
-  return points;
+  return meam::ofIndices<Eigen::Vector3d>(count,
+    [&](int) { return Eigen::Vector3d(90.0 * distance(random), 40.0 * distance(random), 10.0 * distance(random)); });
 }
 
 meam::PointCloud withTangents(const meam::PointCloud& edges, double partDiameter, const Eigen::Vector3d& viewDirection,

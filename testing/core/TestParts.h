@@ -85,6 +85,9 @@ meam::Points lattice(
   const Eigen::Vector2f& low, const Eigen::Vector2f& high, float step, const std::function<float(float, float)>& z);
 meam::Points lattice(const Eigen::Vector2f& low, const Eigen::Vector2f& high, float step, float z);
 
+/// Adds points to others.
+void add(meam::Points& points, const meam::Points& more);
+
 /// They all look the same way.
 meam::PointCloud facing(const meam::Points& points, const Eigen::Vector3f& normal);
 

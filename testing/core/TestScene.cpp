@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TestScene.h"
 
+#include "base/sequences/Sequences.h"
 #include "pose/refinement/FinalAlignment.h"
 
 #include <algorithm>
@@ -41,12 +42,7 @@ Seen seenFromAbove(const std::vector<Copy>& copies)
 
 std::vector<Copy> brackets(const std::vector<Eigen::Isometry3d>& poses)
 {
-  std::vector<Copy> copies;
-  for (const auto& T : poses)
-  {
-    copies.push_back({ parts::lBracket(), T });
-  }
-  return copies;
+  return meam::mapped<Copy>(poses, [&](const auto& T) { return Copy{ parts::lBracket(), T }; });
 }
 
 Seen seenFromAbove(const std::vector<Eigen::Isometry3d>& poses) { return seenFromAbove(brackets(poses)); }
@@ -188,12 +184,10 @@ std::vector<Copy> stretchedBrackets(int count, const Eigen::Vector3f& factors)
   {
     vertex = middle + factors.cwiseProduct(vertex - middle);
   }
-  std::vector<Copy> copies;
-  for (int i = 0; i < count; ++i)
-  {
-    copies.push_back({ part, lying(100.0 * (i % 2), 100.0 * (i / 2), 25.0 + 70.0 * i) });
-  }
-  return copies;
+  return meam::ofIndices<Copy>(count,
+    [&](int i) {
+      return Copy{ part, lying(100.0 * (i % 2), 100.0 * (i / 2), 25.0 + 70.0 * i) };
+    });
 }
 
 meam::Scene sceneOf(const std::vector<Copy>& copies) { return prepared(withTangents(seenFromAbove(copies))); }
@@ -215,6 +209,14 @@ const meam::Scene& copiesScene()
 {
   static const meam::Scene scene = prepared(seenCopies());
   return scene;
+}
+
+meam::Scene upperFaces(const std::vector<int>& edges)
+{
+  Seen faces = seenCopies();
+  meam::eraseIf(faces.surface, [](const Eigen::Vector3f& point) { return point.z() <= 14.5f; });
+  faces.edges = faces.edges.subset(edges);
+  return prepared(faces);
 }
 
 Eigen::Isometry3d gearAt(double degrees)

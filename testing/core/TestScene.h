@@ -113,6 +113,9 @@ const std::vector<Eigen::Isometry3d>& threeCopies();
 /// What is seen of them, with tangents, and the scene that is prepared of it.
 const Seen& seenCopies();
 const meam::Scene& copiesScene();
+/// Of what is seen of them the upper faces alone, on which a part may turn about z and slide along x and y, and the
+/// edge points of these indices.
+meam::Scene upperFaces(const std::vector<int>& edges);
 /// A gear turned by so many degrees, and the scene in which it lies as gearAt(0).
 Eigen::Isometry3d gearAt(double degrees);
 const meam::Scene& gearScene();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Python module for ablation.py and siblings.py: the method with one decision switched off, on arrays. What a switch
 // does not change is computed once for all switches of a scene.
+#include "base/sequences/Sequences.h"
 #include "baselines/BaselineSettings.h"
 #include "evaluation/PoseEvaluation.h"
 #include "io/MeshFile.h"
@@ -558,12 +559,8 @@ std::vector<double> visibleShares(Part& part, const Scan& scan, const Doubles& t
   const Scene scene(estimateTangents(input.edges, model.diameter, input.sensor.direction).edges, input.measured,
     input.sensor, model.diameter, {}, input.quality);
   const EvidenceCollector collector(scene, model);
-  std::vector<double> shares;
-  for (const Pose& pose : toPoses(truth))
-  {
-    shares.push_back(collector.collect(scene.T_local_scene() * pose.T_scene_model).visibleFraction());
-  }
-  return shares;
+  return meam::mapped<double>(toPoses(truth),
+    [&](const Pose& pose) { return collector.collect(scene.T_local_scene() * pose.T_scene_model).visibleFraction(); });
 }
 
 py::tuple arraysOf(const OrganizedCloud& cloud, const std::vector<std::uint8_t>& pixels, int channels)

@@ -3,6 +3,7 @@
 // with
 // --refined what that pose explains is taken out of the scene and it is asked again, ten times.
 #include "RivalScenes.h"
+#include "base/sequences/Sequences.h"
 
 #include <pcl/features/impl/ppf.hpp>
 #include <pcl/registration/impl/ppf_registration.hpp>
@@ -67,15 +68,10 @@ int main(int argc, char** argv)
           T.matrix() = registration.getFinalTransformation().cast<double>();
           T.linear() = Eigen::Quaterniond(T.linear()).normalized().toRotationMatrix();
           found.push_back(T);
-          meam::Points there;
-          for (const auto& point : of.samples.points)
-          {
-            there.push_back(T.cast<float>() * point);
-          }
+          const auto there = meam::mapped<Eigen::Vector3f>(
+            of.samples.points, [&](const auto& point) -> Eigen::Vector3f { return T.cast<float>() * point; });
           const meam::PointGrid grid(there, Explained * of.diameter);
-          left.erase(std::remove_if(left.begin(), left.end(),
-                       [&](int i) { return grid.nearest(scene.points[i], Explained * of.diameter) >= 0; }),
-            left.end());
+          meam::eraseIf(left, [&](int i) { return grid.nearest(scene.points[i], Explained * of.diameter) >= 0; });
         }
         return refined ? rivals::refined(found, of, meam::PointGrid(scene.points, 0.05 * of.diameter), scene.points)
                        : found;

@@ -2,6 +2,7 @@
 #include "RivalScenes.h"
 
 #include "base/Error.h"
+#include "base/sequences/Sequences.h"
 #include "features/NormalEstimation.h"
 #include "io/MeshFile.h"
 #include "io/PCDFile.h"
@@ -59,14 +60,7 @@ meam::PointCloud sceneOf(const std::string& path, double diameter)
   above.direction = -Eigen::Vector3d::UnitZ();
   scene.normals =
     meam::estimateNormals(scene.points, meam::PointGrid(scene.points, Reach * diameter), every, above, diameter, {});
-  std::vector<int> known;
-  for (std::size_t i = 0; i < scene.size(); ++i)
-  {
-    if (!scene.normals[i].isZero())
-    {
-      known.push_back(static_cast<int>(i));
-    }
-  }
+  const std::vector<int> known = meam::indicesWhere(scene.size(), [&](int i) { return !scene.normals[i].isZero(); });
   return scene.subset(known);
 }
 

@@ -2,6 +2,7 @@
 #include "mesh/preparation/MeshDistance.h"
 
 #include "base/Parallel.h"
+#include "base/sequences/Sequences.h"
 #include "mesh/MeshEdges.h"
 
 #include <CGAL/AABB_traits.h>
@@ -106,11 +107,7 @@ double largestDistance(const Points& points, const TriangleMesh& mesh, const Pro
 
 double meshDistance(const TriangleMesh& a, const TriangleMesh& b, const Progress& progress)
 {
-  double area = 0.0;
-  for (const auto& triangle : a.triangles)
-  {
-    area += areaOf(a, triangle);
-  }
+  const double area = sumOf(a.triangles, [&](const auto& triangle) { return areaOf(a, triangle); });
   const double wanted = std::max({ static_cast<double>(LeastPoints), static_cast<double>(a.vertices.size()),
     static_cast<double>(b.vertices.size()) });
   const double spacing = std::sqrt(area / wanted);

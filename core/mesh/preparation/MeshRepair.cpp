@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/preparation/MeshRepair.h"
 
+#include "base/sequences/Sequences.h"
+
 #include <CGAL/Polygon_mesh_processing/border.h>
 #include <CGAL/Polygon_mesh_processing/connected_components.h>
 #include <CGAL/Polygon_mesh_processing/manifoldness.h>
@@ -46,11 +48,8 @@ std::size_t mergeNearPoints(const std::vector<Point>& points, std::vector<Corner
 
   // Sorted along a direction that no face of a part is likely to be across.
   const Eigen::Vector3d direction = Eigen::Vector3d(0.6127, 0.5381, 0.4783).normalized();
-  std::vector<double> along(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i)
-  {
-    along[i] = direction.dot(toVector(points[i]) - box.min());
-  }
+  const auto along =
+    ofIndices<double>(points.size(), [&](int i) { return direction.dot(toVector(points[i]) - box.min()); });
   std::vector<std::size_t> order(points.size());
   std::iota(order.begin(), order.end(), std::size_t{ 0 });
   std::sort(order.begin(), order.end(),

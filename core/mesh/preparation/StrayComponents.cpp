@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/preparation/StrayComponents.h"
 
+#include "base/sequences/Sequences.h"
+
 #include <boost/pending/disjoint_sets.hpp>
 
 #include <algorithm>
@@ -184,11 +186,8 @@ std::vector<std::string> strayComponents(const TriangleMesh& mesh, const std::st
   {
     return {};
   }
-  std::vector<std::string> told;
-  for (const MeshComponent& plane : takeLargePlanes(components))
-  {
-    told.push_back(inWords(plane, "a plane far larger than the rest", unit));
-  }
+  auto told = mapped<std::string>(takeLargePlanes(components),
+    [&](const MeshComponent& plane) { return inWords(plane, "a plane far larger than the rest", unit); });
   for (const MeshComponent& component : farComponents(std::move(components)))
   {
     told.push_back(inWords(component, "far off the rest", unit));

@@ -3,6 +3,8 @@
 
 #include "base/Parallel.h"
 #include "base/PointGrid.h"
+#include "base/sequences/Quantiles.h"
+#include "base/sequences/Sequences.h"
 #include "mesh/ConvexHull.h"
 #include "mesh/symmetry/SampleIndex.h"
 #include "mesh/Viewpoints.h"
@@ -219,16 +221,13 @@ public:
     Symmetries found;
     const std::vector<Candidate> axes = this->axes(subProgress(progress, 0.0, 0.5));
     std::vector<Axis> examined(axes.size());
-    parallelFor(static_cast<int>(axes.size()), 0, subProgress(progress, 0.5, 1.0),
-      [&](int begin, int end, int)
+    parallelForEach(static_cast<int>(axes.size()), 0, subProgress(progress, 0.5, 1.0),
+      [&](int a)
       {
-        for (int a = begin; a < end; ++a)
+        examined[a].isContinuous = this->isContinuous(axes[a].axis, examined[a].continuous);
+        if (!examined[a].isContinuous)
         {
-          examined[a].isContinuous = this->isContinuous(axes[a].axis, examined[a].continuous);
-          if (!examined[a].isContinuous)
-          {
-            examined[a].turns = this->turnsAbout(axes[a].axis);
-          }
+          examined[a].turns = this->turnsAbout(axes[a].axis);
         }
       });
     std::vector<NearSymmetry> turns;
@@ -274,8 +273,7 @@ private:
         });
       nearest.push_back(least);
     }
-    std::nth_element(nearest.begin(), nearest.begin() + nearest.size() / 2, nearest.end());
-    return std::sqrt(nearest[nearest.size() / 2]);
+    return std::sqrt(medianOf(nearest));
   }
 
   /// Axes about which some turn maps the surface roughly onto itself, best first.
@@ -286,23 +284,18 @@ private:
     {
       directions.push_back(axis); // the axes of coordinates are likely ones: CAD parts are drawn along them
     }
-    directions.erase(
-      std::remove_if(directions.begin(), directions.end(),
-        [](const auto& d) { return d.z() < -1e-6f || (std::abs(d.z()) <= 1e-6f && d.x() + 1e-3f * d.y() < 0.0f); }),
-      directions.end());
+    eraseIf(directions,
+      [](const auto& d) { return d.z() < -1e-6f || (std::abs(d.z()) <= 1e-6f && d.x() + 1e-3f * d.y() < 0.0f); });
     std::vector<Candidate> candidates(directions.size());
-    parallelFor(static_cast<int>(directions.size()), 0, progress,
-      [&](int begin, int end, int)
+    parallelForEach(static_cast<int>(directions.size()), 0, progress,
+      [&](int i)
       {
-        for (int i = begin; i < end; ++i)
+        candidates[i].axis = directions[i].cast<double>().normalized();
+        for (int order = 2; order <= Orders; ++order)
         {
-          candidates[i].axis = directions[i].cast<double>().normalized();
-          for (int order = 2; order <= Orders; ++order)
-          {
-            const double misfit = this->SparseMatcher.misfit(
-              this->Coarse, turnAbout(candidates[i].axis, 2.0 * M_PI / order, this->Middle), candidates[i].misfit);
-            candidates[i].misfit = std::min(candidates[i].misfit, misfit);
-          }
+          const double misfit = this->SparseMatcher.misfit(
+            this->Coarse, turnAbout(candidates[i].axis, 2.0 * M_PI / order, this->Middle), candidates[i].misfit);
+          candidates[i].misfit = std::min(candidates[i].misfit, misfit);
         }
       });
     std::stable_sort(
@@ -426,11 +419,8 @@ private:
   std::vector<NearSymmetry> turnsAbout(const Eigen::Vector3d& axis) const
   {
     const int steps = ScanSteps, first = FirstStep;
-    std::vector<double> misfits(steps);
-    for (int step = 0; step < steps; ++step)
-    {
-      misfits[step] = this->SparseMatcher.misfit(this->Scan, turnAbout(axis, 2.0 * M_PI * step / steps, this->Middle));
-    }
+    const auto misfits = ofIndices<double>(steps, [&](int step)
+      { return this->SparseMatcher.misfit(this->Scan, turnAbout(axis, 2.0 * M_PI * step / steps, this->Middle)); });
     std::vector<NearSymmetry> turns;
     for (int step = first; step <= steps - first; ++step)
     {
@@ -557,11 +547,6 @@ std::vector<float> surfaceDeviation(const PointCloud& surface, const Eigen::Isom
 {
   const SurfaceMatcher matcher(surface, ShownSpacing * reach, reach);
   const Eigen::Isometry3f Tf = T.cast<float>();
-  std::vector<float> deviation;
-  for (std::size_t i = 0; i < surface.size(); ++i)
-  {
-    deviation.push_back(matcher.distance(static_cast<int>(i), Tf));
-  }
-  return deviation;
+  return ofIndices<float>(surface.size(), [&](int i) { return matcher.distance(i, Tf); });
 }
 }

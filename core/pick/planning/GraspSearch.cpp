@@ -3,6 +3,7 @@
 
 #include "base/Bounds.h"
 #include "base/Error.h"
+#include "base/sequences/Sequences.h"
 #include "pick/GraspTurns.h"
 
 #include <algorithm>
@@ -123,11 +124,7 @@ bool GraspSearch::holdsAnyRotation(const Grasp& grasp, const Symmetries& symmetr
       }
     }
   }
-  std::vector<Eigen::Isometry3d> turns;
-  for (const NearSymmetry& symmetry : symmetries.near)
-  {
-    turns.push_back(symmetry.T);
-  }
+  auto turns = mapped<Eigen::Isometry3d>(symmetries.near, [&](const NearSymmetry& symmetry) { return symmetry.T; });
   for (const ContinuousSymmetry& axis : nearlyRoundAxes(symmetries))
   {
     for (int k = 1; k < RoundSteps; ++k)

@@ -5,6 +5,7 @@
 #include "base/Error.h"
 #include "base/Frames.h"
 #include "base/PointGrid.h"
+#include "base/sequences/Sequences.h"
 
 #include <algorithm>
 #include <cmath>
@@ -90,15 +91,7 @@ std::vector<int> PartSurface::pointsAt(
 {
   const Eigen::Isometry3f toModel = T_scene_model.inverse().cast<float>();
   const auto near = static_cast<float>(std::min(tolerance, this->Reach));
-  std::vector<int> result;
-  for (std::size_t k = 0; k < points.size(); ++k)
-  {
-    if (this->Distances.at(toModel * points[k]) < near)
-    {
-      result.push_back(static_cast<int>(k));
-    }
-  }
-  return result;
+  return indicesWhere(points.size(), [&](int k) { return this->Distances.at(toModel * points[k]) < near; });
 }
 
 double PartSurface::covered(const Eigen::Isometry3d& T_scene_model, const Eigen::Vector3d& up, const Points& points,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pick/proposal/ContactPlaces.h"
 
+#include "base/sequences/Sequences.h"
 #include "mesh/ConvexHull.h"
 #include "mesh/MeshEdges.h"
 #include "mesh/SurfaceSampling.h"
@@ -78,11 +79,8 @@ std::vector<ContactPlace> contactPlaces(const TriangleMesh& part, const MeshRays
   {
     places.push_back({ samples.points[i].cast<double>(), samples.normals[i].cast<double>().normalized() });
   }
-  Points points;
-  for (const ContactPlace& place : places)
-  {
-    points.push_back(place.point.cast<float>());
-  }
+  const auto points = mapped<Eigen::Vector3f>(
+    places, [&](const ContactPlace& place) -> Eigen::Vector3f { return place.point.cast<float>(); });
   const std::vector<bool> stands = representatives(points, symmetries, SymmetryMargin * balance.diameter);
   std::vector<ContactPlace> result;
   for (std::size_t i = 0; i < places.size(); ++i)

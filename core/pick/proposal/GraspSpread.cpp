@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pick/proposal/GraspSpread.h"
 
+#include "base/sequences/Sequences.h"
 #include "pick/GraspTurns.h"
 
 #include <algorithm>
@@ -65,11 +66,7 @@ Grasps spreadOut(const Grasps& all, const Symmetries& symmetries, double spread,
 {
   const std::vector<Eigen::Isometry3d> symmetric = turnsOf(symmetries, GraspTurnStep);
   const double angle = TurnApart * M_PI / 180.0;
-  std::vector<Candidate> open;
-  for (const Grasp& grasp : all)
-  {
-    open.push_back({ &grasp, grasp.quality });
-  }
+  auto open = mapped<Candidate>(all, [&](const Grasp& grasp) { return Candidate{ &grasp, grasp.quality }; });
   Grasps taken;
   while (!open.empty() && static_cast<int>(taken.size()) < most)
   {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/diagnosis/DetectionTrace.h"
 
+#include "base/sequences/Sequences.h"
+
 #include <algorithm>
 
 namespace meam
@@ -35,15 +37,8 @@ PoseOffset offsetUpToNear(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b
 std::vector<int> posesAt(const Poses& poses, const Eigen::Isometry3d& T_scene_model, const PlaceTolerance& tolerance,
   const TrainedModel& model)
 {
-  std::vector<int> indices;
-  for (std::size_t i = 0; i < poses.size(); ++i)
-  {
-    if (offsetBetween(poses[i].T_scene_model, T_scene_model, model).within(tolerance))
-    {
-      indices.push_back(static_cast<int>(i));
-    }
-  }
-  return indices;
+  return indicesWhere(
+    poses.size(), [&](int i) { return offsetBetween(poses[i].T_scene_model, T_scene_model, model).within(tolerance); });
 }
 
 DetectionTrace::DetectionTrace(

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/diagnosis/PoseDiagnosis.h"
 
+#include "base/sequences/Sequences.h"
 #include "pose/PoseTolerances.h"
 #include "pose/objective/BodyOverlap.h"
 #include "pose/objective/SurfaceContinuation.h"
@@ -41,13 +42,8 @@ Pose poseAt(const Eigen::Isometry3d& T)
 PrecisePoints inScene(const Points& points, const Eigen::Isometry3d& T_local_scene)
 {
   const Eigen::Isometry3d toScene = T_local_scene.inverse();
-  PrecisePoints result;
-  result.reserve(points.size());
-  for (const Eigen::Vector3f& point : points)
-  {
-    result.push_back(toScene * point.cast<double>());
-  }
-  return result;
+  return mapped<Eigen::Vector3d>(
+    points, [&](const Eigen::Vector3f& point) -> Eigen::Vector3d { return toScene * point.cast<double>(); });
 }
 }
 
@@ -408,11 +404,8 @@ LossCause PoseDiagnosis::causeInVoting(const Diagnosis& diagnosis)
 LossCause PoseDiagnosis::causeInScreening(Diagnosis& diagnosis, const Eigen::Isometry3d& T_local_model) const
 {
   const Poses& voted = this->Trace.posesOf(PoseStage::Voting);
-  Poses here;
-  for (const int index : posesAt(voted, T_local_model, this->tolerance(), this->Model))
-  {
-    here.push_back(voted[index]);
-  }
+  const auto here = mapped<Pose>(
+    posesAt(voted, T_local_model, this->tolerance(), this->Model), [&](const int index) { return voted[index]; });
   const std::vector<double> shares = surfaceShares(here, this->InScene, this->Model, *this->Detection.screening);
   diagnosis.candidateShare = *std::max_element(shares.begin(), shares.end());
   return diagnosis.candidateShare < this->Detection.screening->leastSurface              ? LossCause::SurfaceMissing

@@ -79,28 +79,25 @@ std::vector<Points> besideSamples(const TrainedModel& model, double pitch, int t
   const auto isBeside = [&](const Eigen::Vector3f& point)
   { return model.surfaceDistance.at(point) > NearlyBeside * Beside * diameter; };
   std::vector<Points> beside(model.surface.size());
-  parallelFor(static_cast<int>(beside.size()), threads, {},
-    [&](int begin, int end, int)
+  parallelForEach(static_cast<int>(beside.size()), threads, {},
+    [&](int i)
     {
-      for (int i = begin; i < end; ++i)
+      const Eigen::Vector3f& normal = model.surface.normals[i];
+      const Eigen::Vector3f across = normal.unitOrthogonal(), other = normal.cross(across);
+      for (int way = 0; way < Ways; ++way)
       {
-        const Eigen::Vector3f& normal = model.surface.normals[i];
-        const Eigen::Vector3f across = normal.unitOrthogonal(), other = normal.cross(across);
-        for (int way = 0; way < Ways; ++way)
+        const float angle = static_cast<float>(2.0 * M_PI * way / Ways);
+        const Eigen::Vector3f along = std::cos(angle) * across + std::sin(angle) * other;
+        float distance = Beside * diameter;
+        int step = 0;
+        for (; step < Steps && !isBeside(model.surface.points[i] + distance * along); ++step)
         {
-          const float angle = static_cast<float>(2.0 * M_PI * way / Ways);
-          const Eigen::Vector3f along = std::cos(angle) * across + std::sin(angle) * other;
-          float distance = Beside * diameter;
-          int step = 0;
-          for (; step < Steps && !isBeside(model.surface.points[i] + distance * along); ++step)
-          {
-            distance += Step * diameter;
-          }
-          const Eigen::Vector3f point = model.surface.points[i] + (distance + further) * along;
-          if (step < Steps && isBeside(point) && !model.interior->isDeep(point))
-          {
-            beside[i].push_back(point);
-          }
+          distance += Step * diameter;
+        }
+        const Eigen::Vector3f point = model.surface.points[i] + (distance + further) * along;
+        if (step < Steps && isBeside(point) && !model.interior->isDeep(point))
+        {
+          beside[i].push_back(point);
         }
       }
     });
@@ -257,14 +254,7 @@ CommonDifferences commonDifferences(const Poses& poses, const Scene& scene, cons
   }
   const CopiesInSight copies(poses, scene, model, threads);
   std::vector<Patches> ofPart(poses.size()), beside(poses.size());
-  parallelFor(static_cast<int>(poses.size()), threads, {},
-    [&](int begin, int end, int)
-    {
-      for (int i = begin; i < end; ++i)
-      {
-        copies.collect(i, ofPart[i], beside[i]);
-      }
-    });
+  parallelForEach(static_cast<int>(poses.size()), threads, {}, [&](int i) { copies.collect(i, ofPart[i], beside[i]); });
   return { differentOnMost(ofPart), differentOnMost(beside) };
 }
 }

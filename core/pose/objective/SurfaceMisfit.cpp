@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/objective/SurfaceMisfit.h"
 
+#include "base/sequences/Quantiles.h"
 #include "pose/PoseTolerances.h"
 #include "pose/verification/EvidenceCounts.h"
 
@@ -30,13 +31,6 @@ constexpr double Uneven = 0.01; // of the diameter: a scan that is so uneven exc
 constexpr double Block = 3.0;          // patches, the side of a block
 constexpr double Filled = 0.6;         // of the points of the fullest block, or patch: others are cut off
 constexpr double FlattestBlocks = 0.1; // of the blocks, and not the single flattest one
-
-double middleOf(std::vector<float>& values)
-{
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 double meanSquareOffPlane(const Points& points, double patch)
 {
@@ -181,10 +175,10 @@ double SurfaceMisfit::at(const Eigen::Isometry3d& T_scene_model) const
     if (cells >= LeastCells)
     {
       // Not the mean: cells at a step of the part have some of both its sides.
-      const double middle = middleOf(inPatch);
+      const double middle = medianOf(inPatch);
       std::transform(inPatch.begin(), inPatch.end(), inPatch.begin(),
         [middle](float distance) { return std::abs(distance - static_cast<float>(middle)); });
-      const double deviation = DeviationsOfMedian * middleOf(inPatch);
+      const double deviation = DeviationsOfMedian * medianOf(inPatch);
       squares += cells * (middle * middle - VarianceOfMedian * deviation * deviation / cells);
       all += cells;
     }

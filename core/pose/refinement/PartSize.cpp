@@ -74,28 +74,25 @@ PartSize measurePartSize(const Poses& poses, const Scene& scene, const TrainedMo
     const double across = (FirstAcross + (LastAcross - FirstAcross) * step / (SizeSteps - 1)) * model.diameter;
     const Eigen::Vector3f factors = size.factors.cast<float>();
     std::vector<std::optional<SizeEquations>> equations(at.size());
-    parallelFor(static_cast<int>(at.size()), threads, {},
-      [&](int begin, int end, int)
+    parallelForEach(static_cast<int>(at.size()), threads, {},
+      [&](int i)
       {
-        for (int i = begin; i < end; ++i)
+        fitter.update(parts[i], at[i], SizeStride);
+        const Eigen::Isometry3d T = at[i].T_scene_model;
+        SizeEquations& fit = equations[i].emplace(fitter.middle(T), T.linear());
+        const Eigen::Isometry3f Tf = T.cast<float>();
+        const SoAOrientedPoints edges = moved(stretched(parts[i].edges, middle, factors, false), Tf);
+        EdgeIndex::Means means =
+          EdgeIndex::meansAround(scene.edgeIndex.neighbours(edges, window, across, 0.0), edges, window, across);
+        for (std::size_t k = 0; k < means.weights.size(); ++k)
         {
-          fitter.update(parts[i], at[i], SizeStride);
-          const Eigen::Isometry3d T = at[i].T_scene_model;
-          SizeEquations& fit = equations[i].emplace(fitter.middle(T), T.linear());
-          const Eigen::Isometry3f Tf = T.cast<float>();
-          const SoAOrientedPoints edges = moved(stretched(parts[i].edges, middle, factors, false), Tf);
-          EdgeIndex::Means means =
-            EdgeIndex::meansAround(scene.edgeIndex.neighbours(edges, window, across, 0.0), edges, window, across);
-          for (std::size_t k = 0; k < means.weights.size(); ++k)
-          {
-            const bool isHidden = scene.depth.relation(edges.points[k], hiddenBy) == DepthMap::Relation::Hidden;
-            means.weights[k] = isHidden ? 0.0f : std::min(means.weights[k], 1.0f);
-          }
-          addLineResiduals(fit, edges, means.offsets, means.weights);
-          addSurfaceResiduals(fit, scene.depth, moved(stretched(parts[i].surface, middle, factors, true), Tf),
-            { static_cast<float>(across), std::numeric_limits<float>::infinity(), true });
-          ofPoses[i] = fit.ofLengths();
+          const bool isHidden = scene.depth.relation(edges.points[k], hiddenBy) == DepthMap::Relation::Hidden;
+          means.weights[k] = isHidden ? 0.0f : std::min(means.weights[k], 1.0f);
         }
+        addLineResiduals(fit, edges, means.offsets, means.weights);
+        addSurfaceResiduals(fit, scene.depth, moved(stretched(parts[i].surface, middle, factors, true), Tf),
+          { static_cast<float>(across), std::numeric_limits<float>::infinity(), true });
+        ofPoses[i] = fit.ofLengths();
       });
     SizeEquations::OfLengths all;
     for (const SizeEquations::OfLengths& one : ofPoses)

@@ -62,19 +62,16 @@ Poses refinePoses(const Poses& poses, const Scene& scene, const TrainedModel& mo
     refinePointToPoint(refined, scene, model, distance, settings.iterations, settings.threads, progress);
   }
   const PoseFitter fitter(scene, model);
-  parallelFor(static_cast<int>(refined.size()), settings.threads, isPointToPoint ? Progress() : progress,
-    [&](int begin, int end, int)
+  parallelForEach(static_cast<int>(refined.size()), settings.threads, isPointToPoint ? Progress() : progress,
+    [&](int i)
     {
-      for (int i = begin; i < end; ++i)
+      if (isPointToPoint)
       {
-        if (isPointToPoint)
-        {
-          refined[i].fit = fitter.fitAt(refined[i], distance * LastDistance);
-        }
-        else
-        {
-          refineByEdgesAndSurface(refined[i], fitter, distance, settings);
-        }
+        refined[i].fit = fitter.fitAt(refined[i], distance * LastDistance);
+      }
+      else
+      {
+        refineByEdgesAndSurface(refined[i], fitter, distance, settings);
       }
     });
   report(progress, 1.0);

@@ -96,15 +96,12 @@ std::vector<PartPose> resolveConflicts(
     return {};
   }
   const PartDetections& finest = smallest(parts);
-  parallelFor(static_cast<int>(claims.size()), settings.threads, progress,
-    [&](int begin, int end, int)
+  parallelForEach(static_cast<int>(claims.size()), settings.threads, progress,
+    [&](int i)
     {
-      for (int i = begin; i < end; ++i)
-      {
-        const PartDetections& part = parts[claims[i].pose.part];
-        const double tolerance = std::max(UnexplainedDistance * finest.model.diameter, Resolved * part.model.diameter);
-        claims[i] = claimOf(claims[i].pose, part, finest.scene, tolerance);
-      }
+      const PartDetections& part = parts[claims[i].pose.part];
+      const double tolerance = std::max(UnexplainedDistance * finest.model.diameter, Resolved * part.model.diameter);
+      claims[i] = claimOf(claims[i].pose, part, finest.scene, tolerance);
     });
   std::stable_sort(claims.begin(), claims.end(), betterSupported);
   const auto areInConflict = [&](int a, int b)

@@ -41,14 +41,8 @@ std::vector<int> bestOfInstances(const Poses& poses, const InstanceClaims& claim
 {
   const int count = static_cast<int>(poses.size());
   std::vector<InstanceClaims::Claim> ofPoses(count);
-  parallelFor(count, threads, subProgress(progress, 0.0, 0.5),
-    [&](int begin, int end, int)
-    {
-      for (int k = begin; k < end; ++k)
-      {
-        ofPoses[k] = claims.of(poses[k].T_scene_model);
-      }
-    });
+  parallelForEach(
+    count, threads, subProgress(progress, 0.0, 0.5), [&](int k) { ofPoses[k] = claims.of(poses[k].T_scene_model); });
   std::vector<std::optional<PoseComparison::Contender>> contenders(count); // as far as they are asked for
   const auto contender = [&](int k) -> const PoseComparison::Contender&
   {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/search/PatternSearch.h"
 
+#include "base/sequences/Sequences.h"
 #include "mesh/Symmetries.h"
 #include "pose/Pose.h"
 #include "pose/verification/ProbabilityCalibration.h"
@@ -38,11 +39,7 @@ PatternSearch::PatternSearch(const EvidenceCollector& collector, const EvidenceR
   {
     axes = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitX(), round.front().axis).toRotationMatrix();
   }
-  std::vector<Motion> motions;
-  for (int k = 0; k < 3; ++k)
-  {
-    motions.push_back({ axes.col(k), false });
-  }
+  auto motions = ofIndices<Motion>(3, [&](int k) { return Motion{ axes.col(k), false }; });
   for (int k = static_cast<int>(round.size()); k < 3; ++k)
   {
     motions.push_back({ axes.col(k), true });

@@ -136,14 +136,8 @@ FinishedInstances InstanceFinishing::finished(
     const bool isDone = isDoneBy(deadline,
       [&]
       {
-        parallelFor(static_cast<int>(lot.size()), this->Settings.threads, ofLot,
-          [&](int begin, int end, int)
-          {
-            for (int k = begin; k < end; ++k)
-            {
-              finished[lot[k]] = this->finish(finished[lot[k]].pose);
-            }
-          });
+        parallelForEach(static_cast<int>(lot.size()), this->Settings.threads, ofLot,
+          [&](int k) { finished[lot[k]] = this->finish(finished[lot[k]].pose); });
       });
     if (!isDone)
     {
@@ -163,16 +157,13 @@ FinishedInstances InstanceFinishing::finished(
   }
   if (!this->Settings.deadline.hasStruck())
   {
-    parallelFor(static_cast<int>(asScored.size()), this->Settings.threads, {},
-      [&](int begin, int end, int)
+    parallelForEach(static_cast<int>(asScored.size()), this->Settings.threads, {},
+      [&](int k)
       {
-        for (int k = begin; k < end; ++k)
+        FinishedInstance& instance = finished[asScored[k]];
+        if (instance.pose.placeProbability > WorthJudging)
         {
-          FinishedInstance& instance = finished[asScored[k]];
-          if (instance.pose.placeProbability > WorthJudging)
-          {
-            this->judgeWhereItLies(instance);
-          }
+          this->judgeWhereItLies(instance);
         }
       });
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/selection/PoseSelection.h"
 
+#include "base/sequences/Sequences.h"
 #include "pose/PoseTolerances.h"
 #include "pose/search/InstanceSuppression.h"
 #include "pose/search/PoseClusters.h"
@@ -115,13 +116,9 @@ Poses selectClusters(
   {
     same.near.clear();
   }
-  Poses selected;
-  for (const int i : firstOfClusters(
-         scored, same, model, clusterDistance(settings, model), isForRefinement ? settings.alternatives : 1, progress))
-  {
-    selected.push_back(scored[i]);
-  }
-  return selected;
+  const std::vector<int> kept = firstOfClusters(
+    scored, same, model, clusterDistance(settings, model), isForRefinement ? settings.alternatives : 1, progress);
+  return mapped<Pose>(kept, [&](int i) { return scored[i]; });
 }
 
 PoseSelectionSettings candidateSelectionSettings()
@@ -133,9 +130,8 @@ PoseSelectionSettings candidateSelectionSettings()
 
 Poses withinLimits(Poses poses, const PoseSelectionSettings& settings)
 {
-  poses.erase(std::remove_if(poses.begin(), poses.end(),
-                [&](const Pose& pose) { return claimOf(pose, settings.rotationCounts) < settings.minimumProbability; }),
-    poses.end());
+  eraseIf(
+    poses, [&](const Pose& pose) { return claimOf(pose, settings.rotationCounts) < settings.minimumProbability; });
   poses.resize(settings.maximumPoses > 0 ? std::min<std::size_t>(poses.size(), settings.maximumPoses) : poses.size());
   return poses;
 }
@@ -155,9 +151,7 @@ Poses selectPoses(const Poses& scored, const Scene& scene, const TrainedModel& m
     if (settings.method == SelectionMethod::Alternatives)
     {
       const double leastScore = scored.empty() ? 0.0 : LeastScore * scored.front().score;
-      selected.erase(
-        std::remove_if(selected.begin(), selected.end(), [&](const Pose& pose) { return pose.score < leastScore; }),
-        selected.end());
+      eraseIf(selected, [&](const Pose& pose) { return pose.score < leastScore; });
       const auto worth = static_cast<int>(std::count_if(
         selected.begin(), selected.end(), [](const Pose& pose) { return pose.probability > WorthRefining; }));
       limits.maximumPoses = settings.maximumPoses > 0 ? settings.maximumPoses : std::max(LeastRefined, worth);

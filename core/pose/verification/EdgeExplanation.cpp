@@ -26,19 +26,16 @@ std::vector<int> explainEdges(
   }
   const Points& points = edges.cloud.points;
   std::vector<int> explained(points.size(), -1);
-  parallelFor(static_cast<int>(points.size()), threads, {},
-    [&](int begin, int end, int)
+  parallelForEach(static_cast<int>(points.size()), threads, {},
+    [&](int i)
     {
-      for (int i = begin; i < end; ++i)
-      {
-        const auto first = std::find_if(placed.begin(), placed.end(),
-          [&](const Placed& part)
-          {
-            return (points[i] - part.middle).squaredNorm() <= reach * reach &&
-                   model.edgeDistance.at(part.toPart * points[i]) <= near;
-          });
-        explained[i] = first == placed.end() ? -1 : static_cast<int>(first - placed.begin());
-      }
+      const auto first = std::find_if(placed.begin(), placed.end(),
+        [&](const Placed& part)
+        {
+          return (points[i] - part.middle).squaredNorm() <= reach * reach &&
+                 model.edgeDistance.at(part.toPart * points[i]) <= near;
+        });
+      explained[i] = first == placed.end() ? -1 : static_cast<int>(first - placed.begin());
     });
   return explained;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/verification/PlaceOdds.h"
 
+#include "base/sequences/Sequences.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -92,8 +94,7 @@ PlaceOdds placeOdds(const EvidenceCounts& counts, const EvidenceRates& rates, do
     { "thickness of a sheet", "% of its diameter", 100.0 * thickness, OfThin * std::max(1.0 - thickness / Thick, 0.0) },
     ofFoundEdges(counts, ofEdges(counts, rate)),
     { "outline", "patches long where surface ends", counts.ends, ofOutline(counts) } };
-  terms.erase(
-    std::remove_if(terms.begin(), terms.end(), [](const EvidenceTerm& term) { return term.adds == 0.0; }), terms.end());
+  eraseIf(terms, [](const EvidenceTerm& term) { return term.adds == 0.0; });
   const double share = std::clamp((TellingRate - rate) / (TellingRate - UntellingRate), 0.0, 1.0);
   return { OfNothing, std::move(terms), searched, share };
 }

@@ -3,6 +3,7 @@
 
 #include "base/Parallel.h"
 #include "base/PointGrid.h"
+#include "base/sequences/Sequences.h"
 #include "pose/PoseTolerances.h"
 #include "pose/verification/PoseEvidence.h"
 #include "pose/verification/RotationSearch.h"
@@ -85,14 +86,8 @@ std::vector<double> surfaceShares(
   if (haveSurfaces(scene, model))
   {
     const SurfaceScreening screening(scene, model, settings);
-    parallelFor(static_cast<int>(poses.size()), settings.threads, {},
-      [&](int begin, int end, int)
-      {
-        for (int i = begin; i < end; ++i)
-        {
-          shares[i] = screening.share(poses[i].T_scene_model);
-        }
-      });
+    parallelForEach(static_cast<int>(poses.size()), settings.threads, {},
+      [&](int i) { shares[i] = screening.share(poses[i].T_scene_model); });
   }
   return shares;
 }
@@ -149,20 +144,10 @@ Poses screenPoses(const Poses& candidates, const Scene& scene, const TrainedMode
     }
   }
   std::sort(kept.begin(), kept.end());
-  Poses screened;
-  for (const int i : kept)
-  {
-    screened.push_back(candidates[i]);
-  }
+  auto screened = mapped<Pose>(kept, [&](const int i) { return candidates[i]; });
   const RotationSearch search(scene, model);
-  parallelFor(static_cast<int>(screened.size()), settings.threads, progress,
-    [&](int begin, int end, int)
-    {
-      for (int i = begin; i < end; ++i)
-      {
-        screened[i].T_scene_model = search.likeliest(screened[i].T_scene_model);
-      }
-    });
+  parallelForEach(static_cast<int>(screened.size()), settings.threads, progress,
+    [&](int i) { screened[i].T_scene_model = search.likeliest(screened[i].T_scene_model); });
   report(progress, 1.0);
   return screened;
 }

@@ -51,14 +51,8 @@ EvidenceRates evidenceRatesOf(const Poses& candidates, const EvidenceCollector& 
     return *settings.rates;
   }
   std::vector<EvidenceCounts> counts(candidates.size());
-  parallelFor(static_cast<int>(candidates.size()), threads, {},
-    [&](int begin, int end, int)
-    {
-      for (int i = begin; i < end; ++i)
-      {
-        counts[i] = collector.collect(candidates[i].T_scene_model, stride).counts;
-      }
-    });
+  parallelForEach(static_cast<int>(candidates.size()), threads, {},
+    [&](int i) { counts[i] = collector.collect(candidates[i].T_scene_model, stride).counts; });
   return evidenceRates(counts);
 }
 
@@ -73,16 +67,13 @@ EvidenceRates scoreByEvidence(Poses& poses, const Scene& scene, const TrainedMod
     [&](const Poses& unknown)
     {
       std::vector<SeenAtPose> result(unknown.size());
-      parallelFor(static_cast<int>(unknown.size()), settings.threads, progress,
-        [&](int begin, int end, int)
+      parallelForEach(static_cast<int>(unknown.size()), settings.threads, progress,
+        [&](int i)
         {
-          for (int i = begin; i < end; ++i)
-          {
-            Pose pose = unknown[i];
-            const PoseEvidence evidence = collector.collect(pose.T_scene_model, settings.pointStride);
-            setSeen(pose, evidence, scene, model);
-            result[i] = { evidence.counts, pose.score, pose.visibleFraction, pose.viewId };
-          }
+          Pose pose = unknown[i];
+          const PoseEvidence evidence = collector.collect(pose.T_scene_model, settings.pointStride);
+          setSeen(pose, evidence, scene, model);
+          result[i] = { evidence.counts, pose.score, pose.visibleFraction, pose.viewId };
         });
       return result;
     });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/verification/RotationSearch.h"
 
+#include "base/sequences/Sequences.h"
 #include "pose/PoseTolerances.h"
 
 #include <algorithm>
@@ -112,11 +113,7 @@ std::vector<Eigen::Isometry3d> RotationSearch::better(const Eigen::Isometry3d& T
     const auto turn = [&](int step) { return turnAbout(axis.axis, 2.0 * M_PI * step / Steps, axis.point); };
     const auto explained = [&](int step, const SoAPoints& edges) { return this->explained(edges, turn(step)); };
     // Maxima by some of the points, which then all are asked about.
-    std::vector<double> coarse(Steps);
-    for (int step = 0; step < Steps; ++step)
-    {
-      coarse[step] = explained(step, few);
-    }
+    const auto coarse = ofIndices<double>(Steps, [&](int step) { return explained(step, few); });
     std::vector<int> maxima;
     for (int step = 2; step < Steps - 1; ++step)
     {

@@ -4,6 +4,7 @@
 #include "base/Parallel.h"
 #include "base/PointGrid.h"
 #include "base/Range.h"
+#include "base/sequences/Sequences.h"
 #include "features/NormalEstimation.h"
 #include "pose/voting/VoteAccumulator.h"
 #include "scene/Units.h"
@@ -57,12 +58,7 @@ std::vector<int> chooseInOrder(const Points& points, double share, int least, do
   std::vector<int> indices(count);
   std::iota(indices.begin(), indices.end(), 0);
   const int wanted = std::min(count, std::max(least, static_cast<int>(std::ceil(share * count))));
-  std::vector<std::uint64_t> hashes;
-  hashes.reserve(points.size());
-  for (const auto& point : points)
-  {
-    hashes.push_back(hashOf(point, cell, seed));
-  }
+  const auto hashes = mapped<std::uint64_t>(points, [&](const auto& point) { return hashOf(point, cell, seed); });
   std::partial_sort(indices.begin(), indices.begin() + wanted, indices.end(),
     [&](int a, int b) { return hashes[a] != hashes[b] ? hashes[a] < hashes[b] : a < b; });
   indices.resize(wanted);

@@ -2,6 +2,7 @@
 #include "pose/voting/PoseDetection.h"
 
 #include "base/Parallel.h"
+#include "base/sequences/Sequences.h"
 #include "pose/voting/PairVoting.h"
 #include "pose/voting/VoteAccumulator.h"
 
@@ -161,14 +162,8 @@ Poses CandidateSearch::near(const Eigen::Vector3f& place, double radius, const P
   for (std::size_t k = 0; k < prepared.rounds.size(); ++k)
   {
     const Points& points = prepared.rounds[k].points.points;
-    std::vector<int> within;
-    for (std::size_t i = 0; i < points.size(); ++i)
-    {
-      if ((points[i] - place).norm() <= radius)
-      {
-        within.push_back(static_cast<int>(i));
-      }
-    }
+    const std::vector<int> within =
+      indicesWhere(points.size(), [&](int i) { return (points[i] - place).norm() <= radius; });
     for (const Candidates& candidates : candidatesOf(prepared.rounds[k], prepared.votings[k], within,
            this->Model.symmetries, this->Settings, prepared.ofRound(k, progress)))
     {

@@ -3,6 +3,7 @@
 
 #include "base/Parallel.h"
 #include "base/PointGrid.h"
+#include "base/sequences/Sequences.h"
 #include "pose/PoseTolerances.h"
 #include "pose/voting/PairVoting.h"
 #include "pose/voting/VoteAccumulator.h"
@@ -80,15 +81,8 @@ public:
     const Eigen::Isometry3f toPart = this->T.inverse().cast<float>();
     const DistanceField& part = this->Round.byEdges ? this->Model.edgeDistance : this->Model.surfaceDistance;
     const double near = OnPart * this->Model.diameter;
-    std::vector<int> indices;
-    for (std::size_t i = 0; i < this->Round.points.points.size(); ++i)
-    {
-      if (part.at(toPart * this->Round.points.points[i]) <= near)
-      {
-        indices.push_back(static_cast<int>(i));
-      }
-    }
-    return indices;
+    return indicesWhere(
+      this->Round.points.points.size(), [&](int i) { return part.at(toPart * this->Round.points.points[i]) <= near; });
   }
 
   VoteAccumulator accumulator() const

@@ -62,14 +62,7 @@ DepthMap::DepthMap(const ScanProjection& scan, double cellSize, int threads)
   }
   this->fillGaps(this->layer(), threads);
   this->Normals.assign(this->Cells.size(), Eigen::Vector3f::Zero());
-  parallelFor(this->Width * this->Height, threads, {},
-    [&](int begin, int end, int)
-    {
-      for (int k = begin; k < end; ++k)
-      {
-        this->Normals[k] = this->normalOf(k);
-      }
-    });
+  parallelForEach(this->Width * this->Height, threads, {}, [&](int k) { this->Normals[k] = this->normalOf(k); });
   const auto gaps = std::count_if(this->Cells.begin(), this->Cells.end(), [](const Cell& cell) { return cell.isGap; });
   this->Pitch =
     cellSize * std::sqrt(static_cast<double>(this->Means.size() + gaps) / static_cast<double>(scan.count()));
@@ -173,15 +166,12 @@ void DepthMap::fillGaps(float layer, int threads)
   // Between the samples of a surface some cells stay empty: the nearest surface around speaks for them.
   const std::size_t stride = static_cast<std::size_t>(this->Width) + 2; // with a border of cells that are not seen
   std::vector<std::uint8_t> seen(stride * (this->Height + 2), 0);
-  parallelFor(this->Height, threads, {},
-    [&](int begin, int end, int)
+  parallelForEach(this->Height, threads, {},
+    [&](int row)
     {
-      for (int row = begin; row < end; ++row)
+      for (int column = 0; column < this->Width; ++column)
       {
-        for (int column = 0; column < this->Width; ++column)
-        {
-          seen[(row + 1) * stride + column + 1] = this->cellIn(row, column).nearest < NothingSeen ? 1 : 0;
-        }
+        seen[(row + 1) * stride + column + 1] = this->cellIn(row, column).nearest < NothingSeen ? 1 : 0;
       }
     });
   parallelFor(this->Height, threads, {},

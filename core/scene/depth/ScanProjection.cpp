@@ -122,33 +122,30 @@ ScanProjection::ScanProjection(const Points& scan, const Sensor& sensor, int thr
     std::int64_t count = 0;
   };
   std::vector<Summary> summaries(this->Runs.size());
-  parallelFor(static_cast<int>(this->Runs.size()), threads, {},
-    [&](int begin, int end, int)
+  parallelForEach(static_cast<int>(this->Runs.size()), threads, {},
+    [&](int i)
     {
-      for (int i = begin; i < end; ++i)
+      Run& run = this->Runs[i];
+      run.begin = i * RunLength;
+      run.end = std::min(size, run.begin + RunLength);
+      RunPoints points;
+      if (run.end - run.begin < RunLength)
       {
-        Run& run = this->Runs[i];
-        run.begin = i * RunLength;
-        run.end = std::min(size, run.begin + RunLength);
-        RunPoints points;
-        if (run.end - run.begin < RunLength)
-        {
-          points = nothingSeen();
-        }
-        this->project(run, points);
-        Extent extent = nowhere();
-        extend(points, RunLength, extent);
-        Summary& summary = summaries[i];
-        for (int axis = 0; axis < 3; ++axis)
-        {
-          summary.box.min()[axis] = *std::min_element(extent.low[axis], extent.low[axis] + PointLanes);
-          summary.box.max()[axis] = *std::max_element(extent.high[axis], extent.high[axis] + PointLanes);
-        }
-        summary.depths = std::accumulate(extent.depths, extent.depths + PointLanes, 0.0);
-        summary.count = static_cast<std::int64_t>(std::accumulate(extent.counts, extent.counts + PointLanes, 0.0));
-        run.low = summary.box.min().head<2>();
-        run.high = summary.box.max().head<2>();
+        points = nothingSeen();
       }
+      this->project(run, points);
+      Extent extent = nowhere();
+      extend(points, RunLength, extent);
+      Summary& summary = summaries[i];
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        summary.box.min()[axis] = *std::min_element(extent.low[axis], extent.low[axis] + PointLanes);
+        summary.box.max()[axis] = *std::max_element(extent.high[axis], extent.high[axis] + PointLanes);
+      }
+      summary.depths = std::accumulate(extent.depths, extent.depths + PointLanes, 0.0);
+      summary.count = static_cast<std::int64_t>(std::accumulate(extent.counts, extent.counts + PointLanes, 0.0));
+      run.low = summary.box.min().head<2>();
+      run.high = summary.box.max().head<2>();
     });
   for (const Summary& summary : summaries)
   {

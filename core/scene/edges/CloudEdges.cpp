@@ -110,14 +110,8 @@ template <typename Work>
 GridEdges inBands(const OrganizedCloud& cloud, int threads, const Progress& progress, const Work& work)
 {
   std::vector<GridEdges> ofRow(cloud.height);
-  parallelFor((cloud.height + BandRows - 1) / BandRows, threads, progress,
-    [&](int begin, int end, int)
-    {
-      for (int band = begin; band < end; ++band)
-      {
-        work(band * BandRows, std::min((band + 1) * BandRows, cloud.height), ofRow);
-      }
-    });
+  parallelForEach((cloud.height + BandRows - 1) / BandRows, threads, progress,
+    [&](int band) { work(band * BandRows, std::min((band + 1) * BandRows, cloud.height), ofRow); });
   GridEdges all;
   for (const GridEdges& edges : ofRow)
   {

@@ -34,35 +34,32 @@ OrganizedCloud halved(const OrganizedCloud& cloud, double jump, int threads)
   half.height = cloud.height / 2;
   half.points.assign(static_cast<std::size_t>(half.width) * half.height, Eigen::Vector3f::Constant(none));
   const float limit = static_cast<float>(jump);
-  parallelFor(half.height, threads, {},
-    [&](int begin, int end, int)
+  parallelForEach(half.height, threads, {},
+    [&](int row)
     {
-      for (int row = begin; row < end; ++row)
+      for (int column = 0; column < half.width; ++column)
       {
-        for (int column = 0; column < half.width; ++column)
+        const Four four(cloud, row, column);
+        float nearest = std::numeric_limits<float>::infinity();
+        for (const int place : four.places)
         {
-          const Four four(cloud, row, column);
-          float nearest = std::numeric_limits<float>::infinity();
-          for (const int place : four.places)
+          const Eigen::Vector3f& point = cloud.points[place];
+          nearest = point.allFinite() ? std::min(nearest, point.z()) : nearest;
+        }
+        Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+        float count = 0.0f;
+        for (const int place : four.places)
+        {
+          const Eigen::Vector3f& point = cloud.points[place];
+          if (point.allFinite() && point.z() - nearest <= limit)
           {
-            const Eigen::Vector3f& point = cloud.points[place];
-            nearest = point.allFinite() ? std::min(nearest, point.z()) : nearest;
+            sum += point;
+            ++count;
           }
-          Eigen::Vector3f sum = Eigen::Vector3f::Zero();
-          float count = 0.0f;
-          for (const int place : four.places)
-          {
-            const Eigen::Vector3f& point = cloud.points[place];
-            if (point.allFinite() && point.z() - nearest <= limit)
-            {
-              sum += point;
-              ++count;
-            }
-          }
-          if (count > 0.0f)
-          {
-            half.points[static_cast<std::size_t>(row) * half.width + column] = sum / count;
-          }
+        }
+        if (count > 0.0f)
+        {
+          half.points[static_cast<std::size_t>(row) * half.width + column] = sum / count;
         }
       }
     });

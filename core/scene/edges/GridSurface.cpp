@@ -3,6 +3,7 @@
 
 #include "base/AllVectors.h"
 #include "base/Parallel.h"
+#include "base/sequences/Quantiles.h"
 #include "scene/ScanQuality.h"
 
 #include <Eigen/LU>
@@ -19,17 +20,6 @@ constexpr int Samples = 100000;            // pairs of neighbours that the scale
 constexpr double LargestSlopeError = 0.05; // mm per mm, a window's: a larger one is used where noise makes more,
 constexpr int SmallestWindow = 2;          // grid steps from the middle,
 constexpr int LargestWindow = 6;           // and no more than these
-
-double median(std::vector<float>& values)
-{
-  if (values.empty())
-  {
-    return 0.0;
-  }
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// Half the sides of the box around a window.
 struct HalfBox
@@ -173,8 +163,8 @@ GridScale gridScale(const OrganizedCloud& cloud, int threads)
   }
   GridScale scale;
   // Of a normal distribution half is within 0.6745 deviations; the second difference has the root of 6 of them.
-  inParallel(threads, { [&] { scale.pointDistance = median(distances); },
-                        [&] { scale.noise = median(bends) / (0.6745 * std::sqrt(6.0)); } });
+  inParallel(threads, { [&] { scale.pointDistance = medianOf(distances); },
+                        [&] { scale.noise = medianOf(bends) / (0.6745 * std::sqrt(6.0)); } });
   return scale;
 }
 

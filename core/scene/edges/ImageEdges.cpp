@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <numeric>
 
 namespace meam
 {
@@ -65,11 +66,7 @@ using Histogram = std::array<std::size_t, GradientBins>;
 /// The gradient below which a share of the pixels lies; 0 without pixels.
 double quantile(const Histogram& histogram, double share)
 {
-  std::size_t total = 0;
-  for (const std::size_t count : histogram)
-  {
-    total += count;
-  }
+  const std::size_t total = std::accumulate(histogram.begin(), histogram.end(), std::size_t{ 0 });
   if (total == 0)
   {
     return 0.0;
@@ -176,14 +173,8 @@ std::vector<EdgePixel> findImageEdges(const Image& image, const ImageEdgeSetting
       at = pixel + 1;
     }
   }
-  parallelFor(static_cast<int>(result.size()), threads, {},
-    [&](int begin, int end, int)
-    {
-      for (int i = begin; i < end; ++i)
-      {
-        result[i].direction = edgeDirection(dx, dy, result[i].row, result[i].column);
-      }
-    });
+  parallelForEach(static_cast<int>(result.size()), threads, {},
+    [&](int i) { result[i].direction = edgeDirection(dx, dy, result[i].row, result[i].column); });
   return result;
 }
 }

@@ -62,23 +62,20 @@ std::vector<unsigned char> onLongLines(
   const float least = inMM(LeastLength);
   const std::vector<int> seeds = thinPoints(edges.points, SeedCell * partDiameter);
   std::vector<Points> lines(seeds.size());
-  parallelFor(static_cast<int>(lines.size()), threads, {},
-    [&](int begin, int end, int)
+  parallelForEach(static_cast<int>(lines.size()), threads, {},
+    [&](int s)
     {
-      for (int s = begin; s < end; ++s)
+      const Eigen::Vector3f& start = edges.points[seeds[s]];
+      Eigen::Vector3f direction = edges.tangents[seeds[s]];
+      const Points ahead = walk(edges, index, start, direction, lengths);
+      direction = -direction;
+      Points line = walk(edges, index, start, direction, lengths);
+      std::reverse(line.begin(), line.end());
+      line.push_back(start);
+      line.insert(line.end(), ahead.begin(), ahead.end());
+      if ((line.back() - line.front()).norm() >= least)
       {
-        const Eigen::Vector3f& start = edges.points[seeds[s]];
-        Eigen::Vector3f direction = edges.tangents[seeds[s]];
-        const Points ahead = walk(edges, index, start, direction, lengths);
-        direction = -direction;
-        Points line = walk(edges, index, start, direction, lengths);
-        std::reverse(line.begin(), line.end());
-        line.push_back(start);
-        line.insert(line.end(), ahead.begin(), ahead.end());
-        if ((line.back() - line.front()).norm() >= least)
-        {
-          lines[s] = std::move(line);
-        }
+        lines[s] = std::move(line);
       }
     });
   std::vector<unsigned char> result(edges.size(), 0);

@@ -2,6 +2,7 @@
 #include "scene/edges/PixelMap.h"
 
 #include "base/Parallel.h"
+#include "base/sequences/Quantiles.h"
 
 #include <algorithm>
 #include <array>
@@ -171,22 +172,19 @@ std::vector<Seen> seenBy(const Camera& camera, const OrganizedCloud& cloud, int 
 {
   const double widest = widestRay(camera);
   std::vector<Seen> all(cloud.size());
-  parallelFor(cloud.height, threads, progress,
-    [&](int begin, int end, int)
+  parallelForEach(cloud.height, threads, progress,
+    [&](int row)
     {
-      for (int row = begin; row < end; ++row)
+      const std::vector<Eigen::Vector3f> points = withoutHoles(cloud, row);
+      for (int column = 0; column < cloud.width; ++column)
       {
-        const std::vector<Eigen::Vector3f> points = withoutHoles(cloud, row);
-        for (int column = 0; column < cloud.width; ++column)
+        const std::size_t index = static_cast<std::size_t>(row) * cloud.width + column;
+        const Eigen::Vector3d inCamera = camera.T_camera_scene * points[column].cast<double>();
+        if (inCamera.head<2>().norm() <= widest * inCamera.z()) // false for NaN
         {
-          const std::size_t index = static_cast<std::size_t>(row) * cloud.width + column;
-          const Eigen::Vector3d inCamera = camera.T_camera_scene * points[column].cast<double>();
-          if (inCamera.head<2>().norm() <= widest * inCamera.z()) // false for NaN
-          {
-            all[index].pixel = project(camera, points[column].cast<double>()).cast<float>();
-            all[index].depth = static_cast<float>(inCamera.z());
-            all[index].measured = cloud.points[index].allFinite();
-          }
+          all[index].pixel = project(camera, points[column].cast<double>()).cast<float>();
+          all[index].depth = static_cast<float>(inCamera.z());
+          all[index].measured = cloud.points[index].allFinite();
         }
       }
     });
@@ -219,13 +217,7 @@ double pixelsPerPoint(const std::vector<Seen>& seen, int width)
       distances.push_back(distance);
     }
   }
-  if (distances.empty())
-  {
-    return 1.0;
-  }
-  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-  std::nth_element(distances.begin(), middle, distances.end());
-  return std::max(static_cast<double>(*middle), 1.0);
+  return std::max(static_cast<double>(medianOf(distances)), 1.0);
 }
 
 /// seen(pixel) is the point that a pixel shows, or -1, and its depth; pixels are numbered row by row.
@@ -285,36 +277,32 @@ PixelMap projectedPixels(
   }
   const std::vector<Seen> seen = seenBy(camera, cloud, threads, subProgress(progress, 0.0, 0.4));
   LeastBuffer front(camera.width, camera.height); // the least depth
-  parallelFor(cloud.height, threads, subProgress(progress, 0.4, 0.8),
-    [&](int begin, int end, int)
+  parallelForEach(cloud.height, threads, subProgress(progress, 0.4, 0.8),
+    [&](int row)
     {
-      for (int row = begin; row < end; ++row)
+      for (int column = 0; column < cloud.width; ++column)
       {
-        for (int column = 0; column < cloud.width; ++column)
+        const std::uint32_t first = static_cast<std::uint32_t>(row) * cloud.width + column;
+        if (const auto pixel = pixelOf(seen[first], camera))
         {
-          const std::uint32_t first = static_cast<std::uint32_t>(row) * cloud.width + column;
-          if (const auto pixel = pixelOf(seen[first], camera))
-          {
-            front.add(pixel->y(), pixel->x(), seen[first].depth, first);
-          }
-          if (row + 1 == cloud.height || column + 1 == cloud.width)
+          front.add(pixel->y(), pixel->x(), seen[first].depth, first);
+        }
+        if (row + 1 == cloud.height || column + 1 == cloud.width)
+        {
+          continue;
+        }
+        const std::uint32_t below = first + cloud.width;
+        for (const std::array<std::uint32_t, 3>& ids :
+          { std::array<std::uint32_t, 3>{ first, first + 1, below }, { first + 1, below + 1, below } })
+        {
+          const std::array<Seen, 3> corners{ seen[ids[0]], seen[ids[1]], seen[ids[2]] };
+          if (!corners[0].valid() || !corners[1].valid() || !corners[2].valid())
           {
             continue;
           }
-          const std::uint32_t below = first + cloud.width;
-          for (const std::array<std::uint32_t, 3>& ids :
-            { std::array<std::uint32_t, 3>{ first, first + 1, below }, { first + 1, below + 1, below } })
-          {
-            const std::array<Seen, 3> corners{ seen[ids[0]], seen[ids[1]], seen[ids[2]] };
-            if (!corners[0].valid() || !corners[1].valid() || !corners[2].valid())
-            {
-              continue;
-            }
-            const auto [low, high] = std::minmax({ corners[0].depth, corners[1].depth, corners[2].depth });
-            const bool surface =
-              corners[0].measured && corners[1].measured && corners[2].measured && high - low <= jump;
-            front.addTriangle(corners, surface ? ids : std::array<std::uint32_t, 3>{ Unknown, Unknown, Unknown });
-          }
+          const auto [low, high] = std::minmax({ corners[0].depth, corners[1].depth, corners[2].depth });
+          const bool surface = corners[0].measured && corners[1].measured && corners[2].measured && high - low <= jump;
+          front.addTriangle(corners, surface ? ids : std::array<std::uint32_t, 3>{ Unknown, Unknown, Unknown });
         }
       }
     });

@@ -3,6 +3,7 @@
 
 #include "base/Parallel.h"
 #include "base/Range.h"
+#include "base/sequences/Sequences.h"
 #include "scene/edges/CoarseGrid.h"
 #include "scene/edges/GridSurface.h"
 #include "scene/edges/PixelMap.h"
@@ -125,15 +126,12 @@ EdgePoints merged(const OrganizedCloud& cloud, const std::vector<Finding>& found
       result.directions[place] += Eigen::Vector2f(x * x - y * y, 2.0f * x * y);
     }
   }
-  parallelFor(places.size(), threads, {},
-    [&](int begin, int end, int)
+  parallelForEach(places.size(), threads, {},
+    [&](int i)
     {
-      for (int i = begin; i < end; ++i)
-      {
-        const float angle = 0.5f * std::atan2(result.directions[i].y(), result.directions[i].x());
-        result.directions[i] = { std::cos(angle), std::sin(angle) };
-        result.edges.cloud.points[i] = cloud.points[result.edges.cloud.pointIds[i]];
-      }
+      const float angle = 0.5f * std::atan2(result.directions[i].y(), result.directions[i].x());
+      result.directions[i] = { std::cos(angle), std::sin(angle) };
+      result.edges.cloud.points[i] = cloud.points[result.edges.cloud.pointIds[i]];
     });
   return result;
 }
@@ -153,13 +151,7 @@ Eigen::Vector2f onGrid(const Camera& camera, const GridPlane& plane, const Eigen
 
 std::vector<Finding> findingsOf(const std::vector<GridEdge>& edges, EdgeSource source)
 {
-  std::vector<Finding> found;
-  found.reserve(edges.size());
-  for (const GridEdge& edge : edges)
-  {
-    found.push_back({ edge.point, source, edge.direction });
-  }
-  return found;
+  return mapped<Finding>(edges, [&](const GridEdge& edge) { return Finding{ edge.point, source, edge.direction }; });
 }
 
 std::vector<Finding> findingsOfImage(const OrganizedCloud& cloud, const Image& image,
@@ -171,14 +163,11 @@ std::vector<Finding> findingsOfImage(const OrganizedCloud& cloud, const Image& i
   const auto lookUp = [&](const auto& map, double pixelsPerPoint, const Progress& rest)
   {
     const int radius = static_cast<int>(std::ceil(settings.searchRadius * pixelsPerPoint));
-    parallelFor(static_cast<int>(pixels.size()), settings.threads, rest,
-      [&](int begin, int end, int)
+    parallelForEach(static_cast<int>(pixels.size()), settings.threads, rest,
+      [&](int i)
       {
-        for (int i = begin; i < end; ++i)
-        {
-          const EdgePixel& pixel = pixels[i];
-          found[i] = { pointOfPixel(map, pixel.row, pixel.column, radius, jump), EdgeSource::Image, pixel.direction };
-        }
+        const EdgePixel& pixel = pixels[i];
+        found[i] = { pointOfPixel(map, pixel.row, pixel.column, radius, jump), EdgeSource::Image, pixel.direction };
       });
   };
   if (settings.camera)
@@ -193,8 +182,7 @@ std::vector<Finding> findingsOfImage(const OrganizedCloud& cloud, const Image& i
   {
     lookUp(cloud, 1.0, subProgress(progress, 0.5, 1.0));
   }
-  found.erase(
-    std::remove_if(found.begin(), found.end(), [](const Finding& one) { return one.point < 0; }), found.end());
+  eraseIf(found, [](const Finding& one) { return one.point < 0; });
   return found;
 }
 

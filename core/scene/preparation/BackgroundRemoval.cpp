@@ -3,6 +3,7 @@
 
 #include "features/PCLConversion.h"
 #include "base/Range.h"
+#include "base/sequences/Sequences.h"
 #include "scene/Enclosure.h"
 #include "scene/edges/GridSurface.h"
 
@@ -49,12 +50,7 @@ void check(const OrganizedCloud& cloud, const Image* mask, const BackgroundRemov
 std::vector<int> spread(const std::vector<int>& indices, std::size_t most)
 {
   const std::size_t count = std::min(indices.size(), most);
-  std::vector<int> result;
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    result.push_back(indices[i * indices.size() / count]);
-  }
-  return result;
+  return ofIndices<int>(count, [&](int i) { return indices[i * indices.size() / count]; });
 }
 
 /// The plane with the most points within the tolerance (RANSAC, then least squares); none of points on a line.
@@ -74,11 +70,7 @@ std::optional<Plane> largestPlane(const Points& points, double tolerance)
   {
     return {};
   }
-  Points on;
-  for (const int i : inliers)
-  {
-    on.push_back(points[i]);
-  }
+  const auto on = mapped<Eigen::Vector3f>(inliers, [&](const int i) { return points[i]; });
   return fitPlane(on, {}).plane;
 }
 }
@@ -138,7 +130,7 @@ BackgroundRemoval removeBackground(
     const auto size = static_cast<double>(std::count_if(left.begin(), left.end(), on(*plane)));
     const auto behind = static_cast<double>(std::count_if(
       left.begin(), left.end(), [&](int i) { return plane->signedDistance(cloud.points[i]) < -tolerance; }));
-    candidates.erase(std::remove_if(candidates.begin(), candidates.end(), on(*plane)), candidates.end());
+    eraseIf(candidates, on(*plane));
     if (size < fewest || behind > MostBehind * static_cast<double>(left.size()))
     {
       continue;
@@ -151,7 +143,7 @@ BackgroundRemoval removeBackground(
         result.reasons[i] = Background::Plane;
       }
     }
-    left.erase(std::remove_if(left.begin(), left.end(), on(*plane)), left.end());
+    eraseIf(left, on(*plane));
   }
   for (std::size_t i = 0; i < cloud.size(); ++i)
   {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/preparation/GridRecovery.h"
 
+#include "base/sequences/Quantiles.h"
+
 #include <opencv2/core.hpp>
 
 #include <algorithm>
@@ -82,13 +84,7 @@ std::optional<Comb> findComb(const std::vector<double>& all)
     return std::nullopt;
   }
   std::vector<double> sorted = values;
-  const auto quantile = [&](double share)
-  {
-    const auto place = sorted.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(sorted.size() - 1));
-    std::nth_element(sorted.begin(), place, sorted.end());
-    return *place;
-  };
-  const double low = quantile(Stray), high = quantile(1.0 - Stray);
+  const double low = quantileOf(sorted, Stray), high = quantileOf(sorted, 1.0 - Stray);
   if (!(high > low))
   {
     return std::nullopt;

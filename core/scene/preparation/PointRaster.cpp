@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/preparation/PointRaster.h"
 
+#include "base/sequences/Sequences.h"
+
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -145,14 +147,7 @@ OrganizedCloud cloudOf(const PointRaster& raster, const Points& points)
 std::vector<int> nearestPoints(std::vector<int> seen, int width)
 {
   const int height = static_cast<int>(seen.size()) / width;
-  std::vector<int> front;
-  for (int pixel = 0; pixel < static_cast<int>(seen.size()); ++pixel)
-  {
-    if (seen[pixel] >= 0)
-    {
-      front.push_back(pixel);
-    }
-  }
+  std::vector<int> front = indicesWhere(seen.size(), [&](int pixel) { return seen[pixel] >= 0; });
   for (std::size_t i = 0; i < front.size(); ++i)
   {
     const int pixel = front[i];

@@ -2,6 +2,8 @@
 #include "scene/preparation/SearchRegion.h"
 
 #include "base/Error.h"
+#include "base/sequences/Quantiles.h"
+#include "base/sequences/Sequences.h"
 
 #include <opencv2/imgproc.hpp>
 
@@ -46,13 +48,7 @@ double spacingOf(const OrganizedCloud& cloud)
       distances.push_back(distance);
     }
   }
-  if (distances.empty())
-  {
-    return 1.0;
-  }
-  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-  std::nth_element(distances.begin(), middle, distances.end());
-  return *middle;
+  return distances.empty() ? 1.0 : medianOf(distances);
 }
 
 /// Pixels no farther from one of those than so many.
@@ -192,16 +188,9 @@ void SearchRegion::crop(LocalCloud& edges, Points& measured, double margin) cons
   const Eigen::AlignedBox3d box = grown(this->Box, margin);
   const Eigen::Isometry3d T_scene_local = edges.T_local_scene.inverse();
   const auto isOut = [&](const Eigen::Vector3f& point) { return !box.contains(T_scene_local * point.cast<double>()); };
-  std::vector<int> kept;
-  for (std::size_t i = 0; i < edges.cloud.size(); ++i)
-  {
-    if (!isOut(edges.cloud.points[i]))
-    {
-      kept.push_back(static_cast<int>(i));
-    }
-  }
+  const std::vector<int> kept = indicesWhere(edges.cloud.size(), [&](int i) { return !isOut(edges.cloud.points[i]); });
   edges.cloud = edges.cloud.subset(kept);
-  measured.erase(std::remove_if(measured.begin(), measured.end(), isOut), measured.end());
+  eraseIf(measured, isOut);
   if (kept.empty())
   {
     throw Error(NothingThere);

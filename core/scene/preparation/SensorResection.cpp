@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/preparation/SensorResection.h"
 
+#include "base/sequences/Sequences.h"
+
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
@@ -115,18 +117,14 @@ std::vector<GridSample> samplesOf(const OrganizedCloud& cloud)
   }
   const auto isBefore = [](const Eigen::Vector3d& a, const Eigen::Vector3d& b)
   { return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3); };
-  std::vector<Eigen::Vector3d> sorted;
-  for (const GridSample& sample : samples)
-  {
-    sorted.push_back(sample.point);
-  }
+  auto sorted = mapped<Eigen::Vector3d>(samples, [&](const GridSample& sample) { return sample.point; });
   std::sort(sorted.begin(), sorted.end(), isBefore);
   const auto isShared = [&](const GridSample& sample)
   {
     const auto [first, last] = std::equal_range(sorted.begin(), sorted.end(), sample.point, isBefore);
     return last - first > 1;
   };
-  samples.erase(std::remove_if(samples.begin(), samples.end(), isShared), samples.end());
+  eraseIf(samples, isShared);
   return samples;
 }
 

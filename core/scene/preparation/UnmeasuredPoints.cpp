@@ -2,6 +2,7 @@
 #include "scene/preparation/UnmeasuredPoints.h"
 
 #include "base/Error.h"
+#include "base/sequences/Quantiles.h"
 
 #include <algorithm>
 #include <cmath>
@@ -77,9 +78,7 @@ std::optional<float> constantDepth(const Points& points, bool isInSensorFrame)
   {
     return std::nullopt;
   }
-  const auto middle = sides.begin() + static_cast<std::ptrdiff_t>(sides.size() / 2);
-  std::nth_element(sides.begin(), middle, sides.end());
-  const float far = isInSensorFrame ? 0.0f : FarBeyond * *middle;
+  const float far = isInSensorFrame ? 0.0f : FarBeyond * medianOf(sides);
   std::sort(depths.begin(), depths.end());
   const double all = static_cast<double>(depths.size());
   std::vector<float> distinct;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/preparation/ViewpointSearch.h"
 
+#include "base/sequences/Quantiles.h"
 #include "base/Random.h"
 
 #include <Eigen/Geometry>
@@ -40,13 +41,6 @@ struct CentredPoints
   double extent = 0.0; ///< mm, root mean square distance from the middle
 };
 
-double medianOfValues(std::vector<double> values)
-{
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 CentredPoints centredPoints(const Points& points)
 {
   CentredPoints result;
@@ -71,11 +65,11 @@ CentredPoints centredPoints(const Points& points)
   for (int axis = 0; axis < 3; ++axis)
   {
     std::transform(sampled.begin(), sampled.end(), values.begin(), [&](const auto& place) { return place[axis]; });
-    result.middle[axis] = medianOfValues(values);
+    result.middle[axis] = medianOf(values);
   }
   std::transform(
     sampled.begin(), sampled.end(), values.begin(), [&](const auto& place) { return (place - result.middle).norm(); });
-  const double most = SeenStraysBeyond * medianOfValues(values);
+  const double most = SeenStraysBeyond * medianOf(values);
   double squares = 0.0;
   for (std::size_t k = 0; k < sampled.size(); ++k)
   {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulation/parts/CurvedParts.h"
 
+#include "base/sequences/Sequences.h"
 #include "simulation/parts/RingMesh.h"
 
 #include <algorithm>
@@ -36,12 +37,7 @@ public:
 
   double length() const
   {
-    double sum = 0.0;
-    for (const Piece& piece : this->Pieces)
-    {
-      sum += piece.length;
-    }
-    return sum;
+    return sumOf(this->Pieces, [](const Piece& piece) { return piece.length; });
   }
 
   /// A ring of `corners` points around the path.
@@ -134,11 +130,7 @@ TriangleMesh pipeElbow()
   Stations inside{ { 0.0, Seat }, { SeatDepth, Seat }, { SeatDepth, Bore }, { start, Bore } };
   append(inside, 12, bend(Bore));
   inside.insert(inside.end(), { { whole - SeatDepth, Bore }, { whole - SeatDepth, Seat }, { whole, Seat } });
-  std::vector<PrecisePoints> rings;
-  for (const Station& station : outside)
-  {
-    rings.push_back(path.ring(station, Corners));
-  }
+  auto rings = mapped<PrecisePoints>(outside, [&](const Station& station) { return path.ring(station, Corners); });
   for (auto station = inside.rbegin(); station != inside.rend(); ++station)
   {
     rings.push_back(path.ring(*station, Corners));

@@ -2,6 +2,7 @@
 #include "TestParts.h"
 #include "base/Frames.h"
 #include "base/PointCloud.h"
+#include "base/sequences/Sequences.h"
 
 #include <cmath>
 #include <tuple>
@@ -36,11 +37,10 @@ TEST(Frames, ThePrincipalFrameMovesWithThePoints)
 {
   std::mt19937 random(4);
   std::gamma_distribution<float> skewed(2.0f, 1.0f);
-  meam::Points points;
-  for (int i = 0; i < 300; ++i)
-  {
-    points.push_back({ 9.0f * skewed(random), 4.0f * skewed(random), skewed(random) });
-  }
+  const auto points = meam::ofIndices<Eigen::Vector3f>(300,
+    [&](int) {
+      return Eigen::Vector3f{ 9.0f * skewed(random), 4.0f * skewed(random), skewed(random) };
+    });
   const Eigen::Isometry3d frame = meam::principalFrame(parts::precise(points));
   EXPECT_NEAR(frame.linear().determinant(), 1.0, 1e-9);
   EXPECT_GT(std::abs(frame.linear()(0, 0)), 0.9) << "most extent along x";

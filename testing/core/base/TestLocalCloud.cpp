@@ -3,6 +3,7 @@
 
 #include "TestParts.h"
 #include "base/Frames.h"
+#include "base/sequences/Sequences.h"
 
 namespace
 {
@@ -89,12 +90,8 @@ TEST(LocalCloud, AMotionChangesHardlyABit)
   const meam::PrecisePoints points = skewed(20000);
   const meam::PrecisePoints moved = parts::moved(points, somewhere());
   const meam::Points here = local(points), there = local(moved);
-  int different = 0;
-  for (std::size_t i = 0; i < points.size(); ++i)
-  {
-    different += here[i] != there[i] ? 1 : 0;
-  }
-  EXPECT_LT(different, 5) << "roundings that fall between two numbers";
+  const auto isDifferent = [&](int i) { return here[i] != there[i]; };
+  EXPECT_LT(meam::indicesWhere(points.size(), isDifferent).size(), 5u) << "roundings that fall between two numbers";
   EXPECT_TRUE((meam::principalFrame(moved) * somewhere()).isApprox(meam::principalFrame(points), 1e-9));
 }
 

@@ -3,6 +3,7 @@
 
 #include "TestParts.h"
 #include "base/Error.h"
+#include "base/sequences/Sequences.h"
 
 #include <algorithm>
 #include <array>
@@ -109,11 +110,10 @@ TEST(PointGrid, ThinningLooksAtEveryCube)
   // Cubes on both sides of the origin, more along an axis than one digit of the sort counts.
   std::mt19937 random(17);
   std::uniform_real_distribution<float> x(-4000.0f, 5000.0f), y(-5.0f, 3.0f);
-  meam::Points points;
-  for (int k = 0; k < 20000; ++k)
-  {
-    points.push_back({ x(random), y(random), y(random) });
-  }
+  const auto points = meam::ofIndices<Eigen::Vector3f>(20000,
+    [&](int) {
+      return Eigen::Vector3f{ x(random), y(random), y(random) };
+    });
   constexpr double Leaf = 2.5;
   std::map<std::array<int, 3>, std::vector<int>> cubes; // by z, y, x
   for (std::size_t i = 0; i < points.size(); ++i)
@@ -176,11 +176,10 @@ TEST(PointGrid, SumsByWeightsChangeSteadily)
   int changes = 0, keptBefore = -1;
   for (int step = 0; step <= 1000; ++step)
   {
-    meam::Points row;
-    for (int k = 0; k < 7; ++k)
-    {
-      row.push_back({ 3.7f * k + 0.01f * step, 0, 0 });
-    }
+    const auto row = meam::ofIndices<Eigen::Vector3f>(7,
+      [&](int k) {
+        return Eigen::Vector3f{ 3.7f * k + 0.01f * step, 0, 0 };
+      });
     const meam::ThinnedPoints kept = meam::thinWithWeights(row, 10.0);
     double sum = 0.0;
     for (const float weight : kept.weights)
@@ -198,11 +197,7 @@ TEST(PointGrid, SumsByWeightsChangeSteadily)
 
 TEST(PointGrid, AStrayPointDoesNotChangeHowTheOthersAreThinned)
 {
-  meam::Points points;
-  for (int k = 0; k < 100; ++k)
-  {
-    points.push_back({ 0.5f + k, 0.5f, 0.5f });
-  }
+  auto points = meam::ofIndices<Eigen::Vector3f>(100, [&](int k) { return Eigen::Vector3f{ 0.5f + k, 0.5f, 0.5f }; });
   std::vector<int> alone = meam::thinPoints(points, 2.0);
   EXPECT_EQ(alone.size(), 50u);
   for (const float far : { 3e38f, -3e38f })

@@ -2,6 +2,7 @@
 #include "features/NormalEstimation.h"
 
 #include "TestParts.h"
+#include "base/sequences/Sequences.h"
 
 #include <numeric>
 #include <random>
@@ -56,12 +57,8 @@ TEST(NormalEstimation, OfASphereOutwards)
     }
   }
   const meam::Points found = normalsOf(points, {});
-  int off = 0;
-  for (std::size_t i = 0; i < points.size(); ++i)
-  {
-    off += found[i].dot((points[i] - middle).normalized()) < std::cos(0.15f) ? 1 : 0;
-  }
-  EXPECT_LT(off, 40) << "at the border a few lean outwards";
+  const auto isOff = [&](int i) { return found[i].dot((points[i] - middle).normalized()) < std::cos(0.15f); };
+  EXPECT_LT(meam::indicesWhere(points.size(), isOff).size(), 40u) << "at the border a few lean outwards";
 }
 
 TEST(NormalEstimation, NoneWhereTooLittleWasMeasured)

@@ -2,6 +2,7 @@
 #include "features/TangentEstimation.h"
 
 #include "TestParts.h"
+#include "base/sequences/Sequences.h"
 
 namespace
 {
@@ -71,11 +72,8 @@ TEST(TangentEstimation, LengthsFollowTheNoiseOfThePoints)
   const auto typicalError = [&](const meam::TangentEstimationSettings& settings)
   {
     const meam::PointCloud found = parts::withTangents(edges, 50.0, Down, settings);
-    std::vector<double> errors;
-    for (const auto& tangent : found.tangents)
-    {
-      errors.push_back(std::acos(std::min(std::abs(tangent.x()), 1.0f)) * 180.0 / M_PI);
-    }
+    auto errors = meam::mapped<double>(found.tangents,
+      [&](const auto& tangent) { return std::acos(std::min(std::abs(tangent.x()), 1.0f)) * 180.0 / M_PI; });
     std::nth_element(errors.begin(), errors.begin() + errors.size() / 2, errors.end());
     return errors[errors.size() / 2];
   };

@@ -2,6 +2,7 @@
 #include "mesh/PolygonTriangulation.h"
 
 #include "TestFiles.h"
+#include "base/sequences/Sequences.h"
 
 #include <cmath>
 
@@ -19,11 +20,8 @@ Cut cut(const meam::Points& outline, std::size_t first = 0)
 {
   meam::TriangleMesh mesh;
   mesh.vertices = outline;
-  std::vector<int> corners;
-  for (std::size_t k = 0; k < outline.size(); ++k)
-  {
-    corners.push_back(static_cast<int>((first + k) % outline.size()));
-  }
+  const auto corners =
+    meam::ofIndices<int>(outline.size(), [&](int k) { return static_cast<int>((first + k) % outline.size()); });
   meam::addPolygon(corners, mesh);
   Cut result;
   for (const Eigen::Vector3i& t : mesh.triangles)

@@ -2,6 +2,7 @@
 #include "mesh/Symmetries.h"
 
 #include "TestParts.h"
+#include "base/sequences/Sequences.h"
 #include "io/ModelsInfo.h"
 #include "pose/Pose.h"
 
@@ -120,11 +121,8 @@ TEST(Symmetries, EqualPosesHaveOneRepresentative)
 TEST(Symmetries, EveryPointHasAnImageAmongTheRepresentatives)
 {
   std::mt19937 random(5);
-  meam::Points points;
-  for (int i = 0; i < 400; ++i)
-  {
-    points.push_back((Centre + 20.0 * parts::motion(random, 1.0).translation()).cast<float>());
-  }
+  const auto points = meam::ofIndices<Eigen::Vector3f>(400,
+    [&](int) -> Eigen::Vector3f { return (Centre + 20.0 * parts::motion(random, 1.0).translation()).cast<float>(); });
   const auto countOf = [&](const meam::Symmetries& symmetries, double margin)
   {
     const std::vector<bool> stands = meam::representatives(points, symmetries, margin);
@@ -144,11 +142,8 @@ TEST(Symmetries, EveryPointHasAnImageAmongTheRepresentatives)
     }
     const std::vector<bool> stands = meam::representatives(images, hexagon(true), 1e-3);
     EXPECT_GE(std::count(stands.begin(), stands.end(), true), 1);
-    meam::Points circle;
-    for (int k = 0; k < 360; ++k)
-    {
-      circle.push_back(turn(Eigen::Vector3d::UnitZ(), k).cast<float>() * point);
-    }
+    const auto circle = meam::ofIndices<Eigen::Vector3f>(
+      360, [&](int k) -> Eigen::Vector3f { return turn(Eigen::Vector3d::UnitZ(), k).cast<float>() * point; });
     const std::vector<bool> onCircle = meam::representatives(circle, cylinder(false), 0.1);
     EXPECT_GE(std::count(onCircle.begin(), onCircle.end(), true), 1);
     EXPECT_LT(std::count(onCircle.begin(), onCircle.end(), true), 180);

@@ -2,6 +2,7 @@
 #include "model/BoundaryExtraction.h"
 
 #include "TestParts.h"
+#include "base/sequences/Sequences.h"
 #include "mesh/SurfaceSampling.h"
 #include "mesh/TriangleMesh.h"
 #include "model/AppearanceModel.h"
@@ -15,18 +16,10 @@ namespace
 /// A flat grid of 11 x 11 points, 1 mm apart, with a hole of 3 x 3 in the middle.
 meam::AppearanceModel plate()
 {
+  meam::Points points = parts::lattice({ 0, 0 }, { 10, 10 }, 1.0f, 0.0f);
+  meam::eraseIf(points, [](const auto& p) { return std::abs(p.x() - 5) <= 1 && std::abs(p.y() - 5) <= 1; });
   meam::AppearanceModel model;
-  for (int x = 0; x < 11; ++x)
-  {
-    for (int y = 0; y < 11; ++y)
-    {
-      if (std::abs(x - 5) > 1 || std::abs(y - 5) > 1)
-      {
-        model.cloud.points.emplace_back(x, y, 0);
-        model.cloud.normals.push_back(Eigen::Vector3f::UnitZ());
-      }
-    }
-  }
+  model.cloud = parts::facing(points, Eigen::Vector3f::UnitZ());
   return model;
 }
 

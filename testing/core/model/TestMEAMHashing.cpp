@@ -3,6 +3,7 @@
 
 #include "TestScene.h"
 #include "TestSteps.h"
+#include "base/sequences/Sequences.h"
 #include "model/AppearanceModel.h"
 
 #include <map>
@@ -75,11 +76,8 @@ TEST(MEAMHashing, EachPhysicalPairOnceAndOnlyWhatIsSeenTogether)
 
 TEST(MEAMHashing, PairsOfOneVoxelCanBeStopped)
 {
-  meam::Points points;
-  for (int k = 0; k < 200; ++k)
-  {
-    points.emplace_back(k % 10, k / 10, 0.01f * k);
-  }
+  const auto points =
+    meam::ofIndices<Eigen::Vector3f>(200, [&](int k) { return Eigen::Vector3f(k % 10, k / 10, 0.01f * k); });
   MEAMHashingSettings coarse = settings(false);
   coarse.voxelSize = 1000.0; // of all
   int reports = 0;           // while pairs are looked for

@@ -2,6 +2,7 @@
 #include "model/VisibilityExtraction.h"
 
 #include "TestParts.h"
+#include "base/sequences/Sequences.h"
 #include "mesh/LineOfSight.h"
 #include "mesh/TriangleMesh.h"
 
@@ -81,14 +82,8 @@ TEST(VisibilityExtraction, AgainstTheMeshItIsExact)
   ASSERT_EQ(models.size(), 6u);
   for (const auto& model : models)
   {
-    std::vector<int> side;
-    for (std::size_t i = 0; i < surface.size(); ++i)
-    {
-      if (surface.normals[i].dot(model.direction) > 0.5f)
-      {
-        side.push_back(static_cast<int>(i));
-      }
-    }
+    const std::vector<int> side =
+      meam::indicesWhere(surface.size(), [&](int i) { return surface.normals[i].dot(model.direction) > 0.5f; });
     EXPECT_EQ(model.cloud.pointIds, side) << model.name;
     EXPECT_NEAR((model.viewpoint - Eigen::Vector3f(10, 10, 5)).normalized().dot(model.direction), 1.0f, 1e-3f);
   }

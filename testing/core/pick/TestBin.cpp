@@ -2,6 +2,7 @@
 #include "pick/Bin.h"
 
 #include "base/Error.h"
+#include "base/sequences/Sequences.h"
 
 #include <gtest/gtest.h>
 
@@ -21,13 +22,9 @@ TEST(Bin, IsAFloorAndFourWalls)
 {
   const auto boxes = meam::boxesOf(ownBin());
   ASSERT_EQ(boxes.size(), 5u);
-  double volume = 0.0;
-  for (const auto& box : boxes)
-  {
-    volume += box.size.prod();
-  }
   // The block outside, less the room inside.
-  EXPECT_NEAR(volume, 208.0 * 108.0 * 54.0 - 200.0 * 100.0 * 50.0, 1e-6);
+  EXPECT_NEAR(meam::sumOf(boxes, [](const auto& box) { return box.size.prod(); }),
+    208.0 * 108.0 * 54.0 - 200.0 * 100.0 * 50.0, 1e-6);
 }
 
 TEST(Bin, TellsDistances)

@@ -6,6 +6,7 @@
 #include "TestSteps.h"
 #include "base/Frames.h"
 #include "base/Random.h"
+#include "base/sequences/Sequences.h"
 
 #include <algorithm>
 
@@ -125,11 +126,8 @@ TEST(MEAMPoseEstimation, PosesMoveWithTheScene)
     const meam::Poses after = found(turned);
     ASSERT_EQ(after.size(), before.size());
     // Rounding to single precision moves a point over the border of its cube now and then; nothing more may change.
-    std::vector<Eigen::Isometry3d> expected;
-    for (const meam::Pose& pose : before)
-    {
-      expected.push_back(T * pose.T_scene_model);
-    }
+    const auto expected =
+      meam::mapped<Eigen::Isometry3d>(before, [&](const meam::Pose& pose) { return T * pose.T_scene_model; });
     EXPECT_EQ(scenes::copiesFound(after, expected, 0.02, 0.05), static_cast<int>(before.size())) << trial;
   }
 }
@@ -208,11 +206,9 @@ TEST(MEAMPoseEstimation, StrayPointsDoNotMatter)
 TEST(MEAMPoseEstimation, MoreThanAHundredCopiesComeOut)
 {
   const int side = SmallData ? 3 : 11;
-  std::vector<Eigen::Isometry3d> copies;
-  for (int k = 0; k < side * side; ++k)
-  {
-    copies.push_back(scenes::lying(160.0 * (k % side), 160.0 * (k / side), 37.0 * k, k % 3 != 0));
-  }
+  const auto copies = meam::ofIndices<Eigen::Isometry3d>(side * side,
+    [&](int k) -> Eigen::Isometry3d
+    { return scenes::lying(160.0 * (k % side), 160.0 * (k / side), 37.0 * k, k % 3 != 0); });
   const scenes::Seen scene = scenes::seenFromAbove(copies);
   const meam::Poses poses =
     scenes::estimatePoses(scenes::bracket(), scene, meam::detectionSettings(meam::Preset::Recommended, 0, 0, 0.5));

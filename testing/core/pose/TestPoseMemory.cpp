@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "base/sequences/Sequences.h"
 #include "pose/PoseMemory.h"
 
 #include <gtest/gtest.h>
@@ -16,12 +17,7 @@ meam::Pose poseAt(double x)
 
 std::vector<double> places(const meam::Poses& poses)
 {
-  std::vector<double> result;
-  for (const meam::Pose& pose : poses)
-  {
-    result.push_back(pose.T_scene_model.translation().x());
-  }
-  return result;
+  return meam::mapped<double>(poses, [&](const meam::Pose& pose) { return pose.T_scene_model.translation().x(); });
 }
 }
 

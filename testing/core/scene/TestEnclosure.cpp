@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/Enclosure.h"
 
+#include "base/sequences/Sequences.h"
+
 #include <gtest/gtest.h>
 
 namespace
@@ -74,10 +76,9 @@ TEST(Enclosure, APlaneIsFittedToPoints)
   EXPECT_LT(fit.plane.normal().z(), 0.0f) << "towards the sensor";
   EXPECT_NEAR(fit.plane.absDistance(Eigen::Vector3f(36, 24, 10)), 0.0, 0.1);
   // Of a line of n points spread evenly it is the line's length, but for the ends.
-  meam::Points line;
-  for (int k = 0; k < 100; ++k)
-  {
-    line.push_back({ 0.5f * k, 0.1f * (k % 2), 10.0f });
-  }
+  const auto line = meam::ofIndices<Eigen::Vector3f>(100,
+    [&](int k) {
+      return Eigen::Vector3f{ 0.5f * k, 0.1f * (k % 2), 10.0f };
+    });
   EXPECT_NEAR(meam::fitPlane(line, {}).extent, 50.0, 0.1);
 }

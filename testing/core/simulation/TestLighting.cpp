@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TestVirtualCamera.h"
+#include "base/sequences/Sequences.h"
 #include "mesh/TriangleMesh.h"
 #include "simulation/Lighting.h"
 
@@ -20,12 +21,7 @@ std::vector<Eigen::Vector3f> colorsOf(const std::vector<meam::Body>& bodies, con
 /// The green light of every pixel.
 std::vector<double> lightOf(const std::vector<meam::Body>& bodies, const meam::Camera& seenBy = camera())
 {
-  std::vector<double> result;
-  for (const auto& color : colorsOf(bodies, seenBy))
-  {
-    result.push_back(color.y());
-  }
-  return result;
+  return meam::mapped<double>(colorsOf(bodies, seenBy), [&](const auto& color) { return color.y(); });
 }
 }
 
@@ -60,11 +56,7 @@ TEST(Lighting, platesCastShadows)
   const meam::TriangleMesh mesh = plate();
   const std::vector<double> empty = lightOf({});
   const std::vector<double> light = lightOf({ at(mesh, 0.0, 800.0) });
-  int shaded = 0;
-  for (std::size_t i = 0; i < light.size(); ++i)
-  {
-    shaded += light[i] < 0.8 * empty[i];
-  }
+  const std::size_t shaded = meam::indicesWhere(light.size(), [&](int i) { return light[i] < 0.8 * empty[i]; }).size();
   EXPECT_GT(shaded, 20);
   EXPECT_LT(shaded, 2000);
 }

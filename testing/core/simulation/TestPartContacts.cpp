@@ -2,6 +2,7 @@
 #include "simulation/PartContacts.h"
 
 #include "TestParts.h"
+#include "base/sequences/Sequences.h"
 
 #include <array>
 #include <cmath>
@@ -13,11 +14,8 @@ constexpr double Skin = 0.01;
 /// A cube of side 1 about the origin: its corners, and the middles of its faces, are what may touch.
 meam::PartShape cube()
 {
-  meam::Points points;
-  for (int i = 0; i < 8; ++i)
-  {
-    points.emplace_back((i & 1) - 0.5f, ((i >> 1) & 1) - 0.5f, (i >> 2) - 0.5f);
-  }
+  auto points = meam::ofIndices<Eigen::Vector3f>(
+    8, [&](int i) { return Eigen::Vector3f((i & 1) - 0.5f, ((i >> 1) & 1) - 0.5f, (i >> 2) - 0.5f); });
   for (int axis = 0; axis < 3; ++axis)
   {
     points.push_back(0.5f * Eigen::Vector3f::Unit(axis));

@@ -2,6 +2,7 @@
 #include "simulation/SphereTree.h"
 
 #include "base/Random.h"
+#include "base/sequences/Sequences.h"
 
 #include <gtest/gtest.h>
 
@@ -10,11 +11,8 @@
 TEST(SphereTree, findsAllNearPointsAndFewOthers)
 {
   meam::Random random(1);
-  meam::Points points;
-  for (int i = 0; i < 1000; ++i)
-  {
-    points.emplace_back(random.uniform(), random.uniform(), random.uniform());
-  }
+  const auto points = meam::ofIndices<Eigen::Vector3f>(
+    1000, [&](int) { return Eigen::Vector3f(random.uniform(), random.uniform(), random.uniform()); });
   const meam::SphereTree tree(points);
   ASSERT_EQ(tree.points().size(), points.size());
   // Those under the plane z = 0.1.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "base/Random.h"
+#include "base/sequences/Sequences.h"
 #include "simulation/StereoMatching.h"
 
 #include <gtest/gtest.h>
@@ -15,12 +16,7 @@ constexpr int Height = 30;
 template <typename Function>
 std::vector<double> image(Function&& valueAt)
 {
-  std::vector<double> values;
-  for (int i = 0; i < Width * Height; ++i)
-  {
-    values.push_back(valueAt(i % Width, i / Width));
-  }
-  return values;
+  return meam::ofIndices<double>(Width * Height, [&](int i) { return valueAt(i % Width, i / Width); });
 }
 }
 

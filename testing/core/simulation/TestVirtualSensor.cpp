@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TestSteps.h"
 #include "TestVirtualCamera.h"
+#include "base/sequences/Sequences.h"
 #include "mesh/TriangleMesh.h"
 #include "simulation/VirtualSensor.h"
 
@@ -327,11 +328,7 @@ TEST(VirtualSensor, anImageIsNoisyAndBlurred)
   quality = perfect();
   quality.imageNoise = 3.0;
   const meam::Image noisy = meam::takeImage(light, camera(), false, quality, random);
-  double squares = 0.0;
-  for (const std::uint8_t value : noisy.pixels)
-  {
-    squares += (value - 102.0) * (value - 102.0);
-  }
+  const double squares = meam::sumOf(noisy.pixels, [](double value) { return (value - 102.0) * (value - 102.0); });
   EXPECT_NEAR(std::sqrt(squares / noisy.pixels.size()), 3.2, 0.3);
 }
 

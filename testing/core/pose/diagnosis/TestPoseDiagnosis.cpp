@@ -4,6 +4,7 @@
 #include "TestScene.h"
 #include "TestSteps.h"
 #include "base/Bounds.h"
+#include "base/sequences/Sequences.h"
 
 using meam::LossCause;
 using meam::PoseStage;
@@ -32,14 +33,8 @@ meam::Diagnosis diagnose(const scenes::Seen& seen, const Eigen::Isometry3d& T_sc
 template <typename Predicate>
 void removeEdges(scenes::Seen& seen, Predicate&& isRemoved)
 {
-  std::vector<int> kept;
-  for (std::size_t k = 0; k < seen.edges.size(); ++k)
-  {
-    if (!isRemoved(seen.edges.points[k]))
-    {
-      kept.push_back(static_cast<int>(k));
-    }
-  }
+  const std::vector<int> kept =
+    meam::indicesWhere(seen.edges.size(), [&](int k) { return !isRemoved(seen.edges.points[k]); });
   seen.edges = seen.edges.subset(kept);
 }
 
@@ -56,23 +51,6 @@ int lostBy(const meam::DetectionSettings& detection, LossCause cause, PoseStage 
 }
 
 meam::DetectionSettings recommended(int poses = 0) { return meam::detectionSettings(meam::Preset::Recommended, poses); }
-
-/// Adds a grid of points at a height, so many mm apart.
-void addPlane(meam::Points& points, const Eigen::AlignedBox2f& box, float z, float step = 1.0f)
-{
-  for (float x = box.min().x(); x < box.max().x(); x += step)
-  {
-    for (float y = box.min().y(); y < box.max().y(); y += step)
-    {
-      points.emplace_back(x, y, z);
-    }
-  }
-}
-
-Eigen::AlignedBox2f region(float x0, float x1, float y0, float y1)
-{
-  return { Eigen::Vector2f(x0, y0), Eigen::Vector2f(x1, y1) };
-}
 
 /// Whether a point is near the second copy.
 bool isHere(const Eigen::Vector3f& point)
@@ -152,7 +130,7 @@ TEST(PoseDiagnosis, APartUnderAnotherIsHidden)
 TEST(PoseDiagnosis, NoPartLiesInTheFloor)
 {
   scenes::Seen seen = scenes::seenCopies();
-  addPlane(seen.surface, region(-160, 260, -160, 260), -1.0f);
+  parts::add(seen.surface, parts::lattice({ -160, -160 }, { 260, 260 }, 1.0f, -1.0f));
   // Beside the copies, with its upper side in the floor.
   Eigen::Isometry3d in = scenes::lying(50, 200, 0);
   const Eigen::AlignedBox3f part = meam::bounds(meam::moved(scenes::bracket().surface.points, in));
@@ -169,7 +147,7 @@ TEST(PoseDiagnosis, WhereNothingIsTheSensorSawPastThePart)
 {
   // On the floor of a scene there is one; a pose above it.
   scenes::Seen seen = scenes::seenCopies();
-  addPlane(seen.surface, region(-60, 160, 110, 260), 0.0f);
+  parts::add(seen.surface, parts::lattice({ -60, 110 }, { 160, 260 }, 1.0f, 0.0f));
   Eigen::Isometry3d above = scenes::lying(50, 180, 0);
   above.pretranslate(Eigen::Vector3d(0, 0, 40));
   EXPECT_EQ(diagnose(seen, above).cause, LossCause::NotThere);
@@ -179,7 +157,7 @@ TEST(PoseDiagnosis, WhatWasNotMeasuredIsNotMeasured)
 {
   scenes::Seen seen = scenes::seenCopies();
   removeEdges(seen, isHere);
-  seen.surface.erase(std::remove_if(seen.surface.begin(), seen.surface.end(), isHere), seen.surface.end());
+  meam::eraseIf(seen.surface, isHere);
   const meam::Diagnosis diagnosis = diagnose(seen, Here);
   EXPECT_EQ(diagnosis.cause, LossCause::NotMeasured);
   EXPECT_EQ(diagnosis.lostIn, PoseStage::Voting);
@@ -206,7 +184,7 @@ TEST(PoseDiagnosis, WithoutReferencePointsOnThePartItIsTheirShare)
 {
   // A hundred reference points among many edges elsewhere: most copies have none.
   scenes::Seen seen = scenes::seenCopies();
-  addPlane(seen.edges.points, region(400, 1900, 0, 1500), 0.0f, 5.0f);
+  parts::add(seen.edges.points, parts::lattice({ 400, 0 }, { 1900, 1500 }, 5.0f, 0.0f));
   seen.edges.tangents.resize(seen.edges.size(), Eigen::Vector3f::UnitZ());
   seen.edges.weights.resize(seen.edges.size(), 1.0f);
   const meam::Scene scene = scenes::prepared(seen);

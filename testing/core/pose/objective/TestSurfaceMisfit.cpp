@@ -40,15 +40,7 @@ double misfitWhereStairsLie(float step, double raised = 0.0)
 /// A surface seen from above, points 1 mm apart.
 meam::Points surfaceOf(const std::function<float(float, float)>& height)
 {
-  meam::Points points;
-  for (int x = 0; x < 120; ++x)
-  {
-    for (int y = 0; y < 120; ++y)
-    {
-      points.emplace_back(x, y, height(x, y));
-    }
-  }
-  return points;
+  return parts::lattice({ 0, 0 }, { 119, 119 }, 1.0f, height);
 }
 }
 

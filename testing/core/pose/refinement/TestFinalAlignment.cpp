@@ -5,19 +5,6 @@
 
 #include <algorithm>
 
-namespace
-{
-/// The upper faces alone, in which a part may slide, and the edge points of these indices.
-meam::Scene upperFaces(const std::vector<int>& edges)
-{
-  scenes::Seen faces = scenes::seenCopies();
-  const auto isLow = [](const Eigen::Vector3f& point) { return point.z() <= 14.5f; };
-  faces.surface.erase(std::remove_if(faces.surface.begin(), faces.surface.end(), isLow), faces.surface.end());
-  faces.edges = faces.edges.subset(edges);
-  return scenes::prepared(faces);
-}
-}
-
 TEST(FinalAlignment, APoseComesToOnePlaceWhereverItComesFrom)
 {
   const meam::Poses right = scenes::disturbedCopies(0.0, 0.0);
@@ -63,7 +50,7 @@ TEST(FinalAlignment, APoseComesToTheSamePlaceOfASceneThatIsMoved)
 
 TEST(FinalAlignment, WhereTheSceneLeavesAFreedomAPoseStays)
 {
-  const meam::Scene face = upperFaces({ 0 });
+  const meam::Scene face = scenes::upperFaces({ 0 });
   const meam::Pose pose = scenes::disturbedCopies(0.3, 0.5)[0];
   const meam::Pose stays = scenes::align(pose, face, scenes::bracket());
   EXPECT_TRUE(stays.T_scene_model.isApprox(pose.T_scene_model, 1e-12));
@@ -77,7 +64,7 @@ TEST(FinalAlignment, WhereTheSceneFixesAPoseWeaklyItIsAligned)
   {
     few.push_back(k);
   }
-  const meam::Scene face = upperFaces(few);
+  const meam::Scene face = scenes::upperFaces(few);
   for (std::size_t i = 0; i < 3; ++i)
   {
     const meam::Pose one = scenes::align(scenes::disturbedCopies(0.1, 0.2)[i], face, scenes::bracket());

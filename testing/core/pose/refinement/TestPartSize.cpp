@@ -4,6 +4,7 @@
 #include "pose/PartsEstimation.h"
 
 #include "TestScene.h"
+#include "base/sequences/Sequences.h"
 
 #include <cmath>
 
@@ -16,11 +17,8 @@ meam::PartSize measured(const Eigen::Vector3f& factors, int threads = 1)
 {
   const meam::TrainedModel& model = scenes::bracket();
   const std::vector<scenes::Copy> copies = scenes::stretchedBrackets(4, factors);
-  meam::Poses poses;
-  for (const scenes::Copy& copy : copies)
-  {
-    poses.push_back(scenes::displaced(copy.T_scene_model, 0.2, 0.2));
-  }
+  const auto poses = meam::mapped<meam::Pose>(
+    copies, [&](const scenes::Copy& copy) { return scenes::displaced(copy.T_scene_model, 0.2, 0.2); });
   const meam::Scene scene = scenes::sceneOf(copies);
   return meam::measurePartSize(
     meam::toLocalFrame(poses, scene.T_local_scene(), model.symmetries), scene, model, threads);

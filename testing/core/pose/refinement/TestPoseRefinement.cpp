@@ -120,13 +120,8 @@ TEST(PoseRefinement, AlongASingleEdgeNothingFixesThePose)
 
 TEST(PoseRefinement, WhereTheSceneLeavesAFreedomIsSaid)
 {
-  // The upper faces alone, on which a part may turn about z and slide along x and y.
-  scenes::Seen faces = scenes::seenCopies();
-  const auto isLow = [](const Eigen::Vector3f& point) { return point.z() <= 14.5f; };
-  faces.surface.erase(std::remove_if(faces.surface.begin(), faces.surface.end(), isLow), faces.surface.end());
-  faces.edges = faces.edges.subset({ 0 });
   const meam::Poses pose{ scenes::disturbedCopies(0.3, 0.5)[0] };
-  const meam::PoseFit fit = scenes::refine(pose, scenes::prepared(faces), scenes::bracket())[0].fit;
+  const meam::PoseFit fit = scenes::refine(pose, scenes::upperFaces({ 0 }), scenes::bracket())[0].fit;
   EXPECT_EQ(fit.constrained, 3);
   Eigen::Matrix<double, 6, 1> across;
   across << 1, 1, 0, 0, 0, 1;

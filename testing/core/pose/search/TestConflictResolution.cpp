@@ -4,6 +4,7 @@
 #include "TestScale.h"
 #include "TestScene.h"
 #include "TestSteps.h"
+#include "base/sequences/Sequences.h"
 #include "mesh/TriangleMesh.h"
 #include "pose/PartsEstimation.h"
 
@@ -222,11 +223,8 @@ TEST(ConflictResolution, ThreadsDoNotMatterAndAbortStops)
 {
   const meam::TrainedModel& model = trained<plate>();
   const meam::Scene scene = scenes::prepared(seen({ { plate(), place(0, 0, 0) } }), model.diameter);
-  meam::Poses poses;
-  for (int i = 0; i < 40; ++i)
-  {
-    poses.push_back(at(place(3.0 * (i % 7), 2.0 * (i % 5), 0.5 * (i % 3)), 0.02 * i));
-  }
+  auto poses = meam::ofIndices<meam::Pose>(
+    40, [&](int i) { return at(place(3.0 * (i % 7), 2.0 * (i % 5), 0.5 * (i % 3)), 0.02 * i); });
   poses = meam::toLocalFrame(poses, scene.T_local_scene(), model.symmetries);
   meam::ConflictResolutionSettings one, three;
   one.threads = 1;

@@ -2,6 +2,7 @@
 #include "pose/selection/InstanceFinishing.h"
 
 #include "TestScene.h"
+#include "base/sequences/Sequences.h"
 #include "pose/verification/PoseVerification.h"
 
 #include <gtest/gtest.h>
@@ -68,11 +69,8 @@ int lookedAtOf(const Finishing& finishing)
 /// The three copies, a little off, and around the first many that are wrong.
 meam::Poses copiesAndWrongOnes(int wrong)
 {
-  meam::Poses poses;
-  for (const Eigen::Isometry3d& T : scenes::threeCopies())
-  {
-    poses.push_back(displaced(T, 0.3, 0.3));
-  }
+  auto poses =
+    meam::mapped<meam::Pose>(scenes::threeCopies(), [&](const Eigen::Isometry3d& T) { return displaced(T, 0.3, 0.3); });
   for (int k = 0; k < wrong; ++k)
   {
     poses.push_back(displaced(scenes::threeCopies()[0], 12.0 + 0.1 * k, 25.0));

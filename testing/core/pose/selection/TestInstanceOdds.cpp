@@ -2,6 +2,7 @@
 #include "pose/selection/InstanceOdds.h"
 
 #include "TestScene.h"
+#include "base/sequences/Sequences.h"
 #include "pose/verification/PoseVerification.h"
 
 #include <gtest/gtest.h>
@@ -25,12 +26,7 @@ std::vector<double> withoutOverlaps(const std::vector<std::pair<double, double>>
     meam::setEvidence(one.pose, logOdds);
   }
   meam::excludeOverlaps(found, scenes::trained<rod>());
-  std::vector<double> after;
-  for (const meam::FinishedInstance& one : found)
-  {
-    after.push_back(one.logOdds);
-  }
-  return after;
+  return meam::mapped<double>(found, [&](const meam::FinishedInstance& one) { return one.logOdds; });
 }
 }
 

@@ -3,6 +3,7 @@
 
 #include "TestScene.h"
 #include "base/Bounds.h"
+#include "base/sequences/Sequences.h"
 
 #include <gtest/gtest.h>
 
@@ -16,8 +17,7 @@ scenes::Seen lyingPlate(bool hidden)
 {
   scenes::Seen seen = scenes::seenFromAbove({ scenes::Copy{ parts::cutPlate(), Eigen::Isometry3d::Identity() } });
   const auto isHidden = [&](const auto& p) { return hidden && p.x() > 5 && p.y() > 5; };
-  const auto drop = [&](meam::Points& points)
-  { points.erase(std::remove_if(points.begin(), points.end(), isHidden), points.end()); };
+  const auto drop = [&](meam::Points& points) { meam::eraseIf(points, isHidden); };
   drop(seen.surface);
   drop(seen.edges.points);
   return scenes::withTangents(seen, comparedPlate().diameter);
@@ -84,7 +84,7 @@ TEST(PoseComparison, WhatIsNotSeenDecidesNothing)
   {
     scenes::Seen half = lyingPlate(true);
     const auto far = [](const auto& p) { return std::abs(p.x()) > 10 || std::abs(p.y()) > 10; };
-    half.surface.erase(std::remove_if(half.surface.begin(), half.surface.end(), far), half.surface.end());
+    meam::eraseIf(half.surface, far);
     half.edges = half.edges.subset({ 0 });
     half.edges.points[0].x() += 1000.0f; // none here
     return half;

@@ -2,6 +2,7 @@
 #include "pose/selection/PoseSelection.h"
 
 #include "TestScene.h"
+#include "base/sequences/Sequences.h"
 
 #include <gtest/gtest.h>
 
@@ -244,11 +245,8 @@ TEST(PoseSelection, AlternativesThatAreNotWorthRefiningGo)
 {
   const auto kept = [](int likely, meam::SelectionMethod method)
   {
-    meam::Poses poses;
-    for (int k = 0; k < 70; ++k)
-    {
-      poses.push_back(ranked(k < likely ? 1e-6 : 1e-8, place(k)));
-    }
+    const auto poses =
+      meam::ofIndices<meam::Pose>(70, [&](int k) { return ranked(k < likely ? 1e-6 : 1e-8, place(k)); });
     meam::PoseSelectionSettings settings;
     settings.method = method;
     return scenes::select(poses, scenes::copiesScene(), scenes::bracket(), settings);

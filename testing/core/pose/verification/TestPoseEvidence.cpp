@@ -152,14 +152,9 @@ TEST(PoseEvidence, RatesOfOutlinesAreThoseOfTheScan)
 TEST(PoseEvidence, WhatLiesBehindTheFloorCannotBeThere)
 {
   scenes::Seen seen = scenes::seenCopies();
-  const Eigen::AlignedBox3f parts = meam::bounds(seen.surface);
-  for (float x = parts.min().x() - 100.0f; x < parts.max().x() + 100.0f; x += 1.0f)
-  {
-    for (float y = parts.min().y() - 100.0f; y < parts.max().y() + 100.0f; y += 1.0f)
-    {
-      seen.surface.push_back({ x, y, parts.min().z() - 10.0f });
-    }
-  }
+  const Eigen::AlignedBox3f all = meam::bounds(seen.surface);
+  const Eigen::Vector2f low = all.min().head<2>(), high = all.max().head<2>(), around(100, 100);
+  parts::add(seen.surface, parts::lattice(low - around, high + around, 1.0f, all.min().z() - 10.0f));
   const meam::Scene scene = scenes::prepared(seen);
   ASSERT_EQ(scene.enclosure.size(), 1u);
   const meam::EvidenceCollector collector(scene, scenes::bracket());
@@ -177,7 +172,7 @@ TEST(PoseEvidence, WhatLiesBehindTheFloorCannotBeThere)
   // Nor with its upper side in the floor, where all that should be seen is there: its body would be below.
   const Eigen::AlignedBox3f part = meam::bounds(scenes::bracket().surface.points);
   Eigen::Isometry3d lying = Eigen::Isometry3d::Identity();
-  lying.translation() << parts.max().x() + 50.0, parts.center().y(), parts.min().z() - 10.0 - part.max().z();
+  lying.translation() << all.max().x() + 50.0, all.center().y(), all.min().z() - 10.0 - part.max().z();
   const meam::EvidenceCounts inTheFloor = collector.collect(scene.T_local_scene() * lying).counts;
   EXPECT_GT(inTheFloor.there, 10.0 * (inTheFloor.hidden + inTheFloor.past));
   EXPECT_GT(inTheFloor.goesOn, inTheFloor.ends);
@@ -188,29 +183,19 @@ TEST(PoseEvidence, OutlineUnderTheFloorDoesNotEnd)
 {
   // A pose under a floor's border: beyond the border, where the sensor sees farther, its outline ends.
   scenes::Seen seen = scenes::seenCopies();
-  const Eigen::AlignedBox3f parts = meam::bounds(seen.surface);
-  const float low = parts.min().z() - 10.0f, border = parts.max().x() + 50.0f;
-  for (float x = parts.min().x() - 100.0f; x < border; x += 1.0f)
-  {
-    for (float y = parts.min().y() - 100.0f; y < parts.max().y() + 100.0f; y += 1.0f)
-    {
-      seen.surface.push_back({ x, y, low });
-    }
-  }
-  const float diameter = static_cast<float>(scenes::bracket().diameter);
-  for (float x = border; x < border + diameter; x += 6.0f)
-  {
-    for (float y = parts.center().y() - diameter; y < parts.center().y() + diameter; y += 6.0f)
-    {
-      seen.surface.push_back({ x, y, low - 3.0f * diameter });
-    }
-  }
+  const Eigen::AlignedBox3f all = meam::bounds(seen.surface);
+  const float low = all.min().z() - 10.0f, border = all.max().x() + 50.0f;
+  const float diameter = static_cast<float>(scenes::bracket().diameter), middle = all.center().y();
+  parts::add(seen.surface,
+    parts::lattice({ all.min().x() - 100.0f, all.min().y() - 100.0f }, { border, all.max().y() + 100.0f }, 1.0f, low));
+  parts::add(seen.surface, parts::lattice({ border, middle - diameter }, { border + diameter, middle + diameter }, 6.0f,
+                             low - 3.0f * diameter));
   const meam::Scene scene = scenes::prepared(seen);
   ASSERT_EQ(scene.enclosure.size(), 1u);
   const meam::EvidenceCollector collector(scene, scenes::bracket());
   const Eigen::AlignedBox3f part = meam::bounds(scenes::bracket().surface.points);
   Eigen::Isometry3d under = Eigen::Isometry3d::Identity();
-  under.translation() << border - part.center().x(), parts.center().y() - part.center().y(), low - 0.5 * diameter;
+  under.translation() << border - part.center().x(), all.center().y() - part.center().y(), low - 0.5 * diameter;
   const meam::EvidenceCounts counts = collector.collect(scene.T_local_scene() * under).counts;
   EXPECT_GT(counts.ends, 1.0);
   EXPECT_LT(counts.goesOn, 0.1 * counts.ends);

@@ -3,6 +3,7 @@
 
 #include "TestScene.h"
 #include "base/Random.h"
+#include "base/sequences/Sequences.h"
 #include "mesh/TriangleMesh.h"
 #include "pose/verification/PoseVerification.h"
 
@@ -47,9 +48,7 @@ TEST(PoseScreening, WhatWasNotMeasuredMayBeThereOrNot)
   EXPECT_EQ(surfaceShare(scenes::copiesScene(), Eigen::Translation3d(500, 0, 0) * T), 0.5) << "nothing was measured";
   scenes::Seen part = scenes::seenCopies();
   const float middle = static_cast<float>((T * scenes::bracket().surfaceDistance.middle().cast<double>()).x());
-  const auto gone =
-    std::remove_if(part.surface.begin(), part.surface.end(), [&](const auto& p) { return p.x() > middle; });
-  part.surface.erase(gone, part.surface.end());
+  meam::eraseIf(part.surface, [&](const auto& p) { return p.x() > middle; });
   const meam::Scene half = scenes::prepared(part);
   EXPECT_GT(surfaceShare(half, T), 0.6);
   EXPECT_LT(surfaceShare(half, T), whole - 0.1);
@@ -156,11 +155,8 @@ TEST(PoseScreening, AModelWithoutASurfaceIsScreenedForDuplicatesAlone)
   meam::TrainedModel model = scenes::bracket();
   model.surface = {};
   model.deriveFields();
-  meam::Poses poses;
-  for (int k = 0; k < 8; ++k)
-  {
-    poses.push_back(scenes::displaced(scenes::threeCopies()[0], 12.0 * (k / 2), 0.0)); // each twice
-  }
+  const auto poses = meam::ofIndices<meam::Pose>(
+    8, [&](int k) { return scenes::displaced(scenes::threeCopies()[0], 12.0 * (k / 2), 0.0); }); // each twice
   meam::PoseScreeningSettings settings;
   settings.enough = 0;
   EXPECT_EQ(scenes::screen(poses, scenes::copiesScene(), model, settings).size(), 4u);
@@ -194,11 +190,8 @@ TEST(PoseScreening, CandidatesAreTurnedByTheLikeliestNearSymmetry)
 
 TEST(PoseScreening, ThreadsDoNotMatterAndAbortStops)
 {
-  meam::Poses poses;
-  for (int k = 0; k < 300; ++k)
-  {
-    poses.push_back(scenes::displaced(scenes::threeCopies()[k % 3], 3.5 * (k / 3 % 10), 13.0 * (k / 30)));
-  }
+  const auto poses = meam::ofIndices<meam::Pose>(
+    300, [&](int k) { return scenes::displaced(scenes::threeCopies()[k % 3], 3.5 * (k / 3 % 10), 13.0 * (k / 30)); });
   meam::PoseScreeningSettings settings;
   settings.threads = 1;
   const meam::Poses one = scenes::screen(poses, scenes::copiesScene(), scenes::bracket(), settings);

@@ -2,6 +2,7 @@
 #include "pose/verification/PoseVerification.h"
 
 #include "TestScene.h"
+#include "base/sequences/Sequences.h"
 
 #include <gtest/gtest.h>
 
@@ -59,22 +60,10 @@ TEST(PoseVerification, APartUnderAPlateIsHiddenNotWrong)
   { return p.x() < 25.0f && p.x() > -60.0f && std::abs(p.y()) < 70.0f; };
   std::copy_if(covered.surface.begin(), covered.surface.end(), std::back_inserter(visible),
     [&](const auto& p) { return !under(p); });
-  for (float x = -60.0f; x < 25.0f; x += 0.7f)
-  {
-    for (float y = -70.0f; y < 70.0f; y += 0.7f)
-    {
-      visible.emplace_back(x, y, 30.0f);
-    }
-  }
+  parts::add(visible, parts::lattice({ -60, -70 }, { 24.7f, 70 }, 0.7f, 30.0f));
   covered.surface = visible;
-  std::vector<int> edges;
-  for (std::size_t i = 0; i < covered.edges.size(); ++i)
-  {
-    if (!under(covered.edges.points[i]))
-    {
-      edges.push_back(static_cast<int>(i));
-    }
-  }
+  const std::vector<int> edges =
+    meam::indicesWhere(covered.edges.size(), [&](int i) { return !under(covered.edges.points[i]); });
   covered.edges = covered.edges.subset(edges);
   const meam::Pose pose = scenes::verify({ at(T) }, scenes::prepared(covered), scenes::bracket())[0];
   EXPECT_LT(pose.visibleFraction, before - 0.2);
@@ -164,11 +153,7 @@ TEST(PoseVerification, AModelWithoutASurfaceIsVerifiedByItsEdges)
   scenes::Seen bare = scenes::seenCopies();
   bare.surface.clear();
   const Eigen::Isometry3d T = scenes::threeCopies()[0];
-  meam::Poses poses;
-  for (int k = 0; k < 8; ++k)
-  {
-    poses.push_back(scenes::displaced(T, 12.0 * k, 0.0));
-  }
+  const auto poses = meam::ofIndices<meam::Pose>(8, [&](int k) { return scenes::displaced(T, 12.0 * k, 0.0); });
   const meam::Poses verified = scenes::verify(poses, scenes::copiesScene(), model);
   const meam::Poses alone = scenes::verify(poses, scenes::prepared(bare), model);
   ASSERT_EQ(verified.size(), 8u);

@@ -4,6 +4,7 @@
 #include "TestScene.h"
 #include "TestSteps.h"
 #include "base/PointGrid.h"
+#include "base/sequences/Sequences.h"
 
 #include <array>
 #include <tuple>
@@ -144,11 +145,8 @@ TEST(PoseDetection, EdgesFoundInAScanHaveMoreReferencePoints)
 {
   const auto copies = [](int count, bool fromScan)
   {
-    std::vector<Eigen::Isometry3d> places;
-    for (int copy = 0; copy < count; ++copy)
-    {
-      places.emplace_back(Eigen::Translation3d(200.0 * copy, 0, 0));
-    }
+    const auto places = meam::ofIndices<Eigen::Isometry3d>(
+      count, [&](int copy) { return Eigen::Isometry3d(Eigen::Translation3d(200.0 * copy, 0, 0)); });
     meam::LocalCloud edges;
     edges.cloud = edgesOf(places);
     edges.fromScan = fromScan;
@@ -175,13 +173,12 @@ TEST(PoseDetection, EdgesFoundInAScanHaveMoreReferencePoints)
 TEST(PoseDetection, ByTheSurfaceAlone)
 {
   // Tilted, so that the sensor sees three faces of each: pairs on one plane tell nothing.
-  std::vector<Eigen::Isometry3d> copies;
-  for (int copy = 0; copy < 3; ++copy)
-  {
-    copies.push_back(Eigen::Translation3d(120.0 * copy, 0, 0) *
-                     Eigen::AngleAxisd(1.1 * copy, Eigen::Vector3d::UnitZ()) *
-                     Eigen::AngleAxisd(0.7 + 0.1 * copy, Eigen::Vector3d(1, 0.6, 0).normalized()));
-  }
+  const auto copies = meam::ofIndices<Eigen::Isometry3d>(3,
+    [&](int copy) -> Eigen::Isometry3d
+    {
+      return Eigen::Translation3d(120.0 * copy, 0, 0) * Eigen::AngleAxisd(1.1 * copy, Eigen::Vector3d::UnitZ()) *
+             Eigen::AngleAxisd(0.7 + 0.1 * copy, Eigen::Vector3d(1, 0.6, 0).normalized());
+    });
   const meam::Scene scene = scenes::prepared(scenes::withTangents(scenes::seenFromAbove(copies)));
   meam::PoseDetectionSettings settings;
   const auto candidates = [&](meam::Features features)
@@ -257,11 +254,9 @@ INSTANTIATE_TEST_SUITE_P(SignedAndSmooth, PoseDetectionVotes,
 TEST(PoseDetection, WithoutTheSignsOfTangentsHalfOfTheCandidatesAreWrong)
 {
   std::mt19937 random(6);
-  std::vector<Eigen::Isometry3d> truth;
-  for (int copy = 0; copy < 12; ++copy)
-  {
-    truth.push_back(Eigen::Translation3d(1000.0 * copy, 0, 0) * parts::motion(random, 300.0));
-  }
+  const auto truth = meam::ofIndices<Eigen::Isometry3d>(12,
+    [&](int copy) -> Eigen::Isometry3d
+    { return Eigen::Translation3d(1000.0 * copy, 0, 0) * parts::motion(random, 300.0); });
   const auto found = [&](bool withSigns)
   {
     meam::PoseDetectionSettings settings;

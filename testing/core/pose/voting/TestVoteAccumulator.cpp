@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/voting/VoteAccumulator.h"
 
+#include "base/sequences/Sequences.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -169,11 +171,7 @@ TEST(VoteAccumulator, FlipsOfABucketAreCountedApart)
 
 TEST(VoteAccumulator, LongBucketsCountEveryEntry)
 {
-  std::vector<std::uint32_t> entries;
-  for (int k = 0; k < 1000; ++k)
-  {
-    entries.push_back(entry(k % 7, false, 0.36 * k));
-  }
+  auto entries = meam::ofIndices<std::uint32_t>(1000, [&](int k) { return entry(k % 7, false, 0.36 * k); });
   entries.resize(1000 + meam::VoteBlock);
   const meam::VoteBucket bucket{ 0, 1000, sceneTurn(false, 0.0) };
   meam::VoteAccumulator votes(7, Step);

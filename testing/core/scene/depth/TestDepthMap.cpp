@@ -2,6 +2,7 @@
 #include "scene/depth/DepthMap.h"
 
 #include "TestParts.h"
+#include "base/sequences/Sequences.h"
 
 #include <map>
 #include <optional>
@@ -190,11 +191,11 @@ TEST(DepthMap, TheLastRowOfARegularScanIsSeen)
   for (int run = 0; run < 500; ++run)
   {
     const float cell = side(random), from = shift(random);
-    meam::Points points;
-    for (int k = 0; k < 2 + run % 40; ++k) // two of each cell, so that the last may lie on a border
-    {
-      points.push_back({ from + 0.5f * cell * k, from, 0 });
-    }
+    const auto points = meam::ofIndices<Eigen::Vector3f>(2 + run % 40,
+      [&](int k)
+      {
+        return Eigen::Vector3f{ from + 0.5f * cell * k, from, 0 };
+      }); // two of each cell, so that the last may lie on a border
     const meam::DepthMap map(points, fromAbove(), cell);
     EXPECT_EQ(map.relation(points.front(), 0.1f), meam::DepthMap::Relation::OnSurface) << run;
     EXPECT_EQ(map.relation(points.back(), 0.1f), meam::DepthMap::Relation::OnSurface) << run;
@@ -213,11 +214,8 @@ TEST(DepthMap, TheSameForAnyNumberOfThreads)
 {
   std::mt19937 random(3);
   std::uniform_real_distribution<float> across(-50.0f, 50.0f), height(0.0f, 20.0f);
-  meam::Points points;
-  for (int k = 0; k < 5000; ++k)
-  {
-    points.emplace_back(across(random), across(random), k % 50 == 0 ? NAN : height(random));
-  }
+  const auto points = meam::ofIndices<Eigen::Vector3f>(
+    5000, [&](int k) { return Eigen::Vector3f(across(random), across(random), k % 50 == 0 ? NAN : height(random)); });
   const meam::DepthMap one(points, fromAbove(), 2.0, 1);
   const meam::DepthMap three(points, fromAbove(), 2.0, 3);
   EXPECT_EQ(one.means(), three.means());

@@ -114,14 +114,7 @@ TEST(FineDepth, TheSameForCallsInParallel)
   const meam::ScanProjection lines(points, sensorAt({ 70, 60, 0 }), 3);
   const meam::FineDepth fine(lines, 1.1);
   const meam::DepthMap map(lines, 1.1);
-  meam::parallelFor(map.cellCount(), 4, {},
-    [&](int begin, int end, int)
-    {
-      for (int cell = begin; cell < end; ++cell)
-      {
-        fine.meanIn((cell * 37) % map.cellCount());
-      }
-    });
+  meam::parallelForEach(map.cellCount(), 4, {}, [&](int cell) { fine.meanIn((cell * 37) % map.cellCount()); });
   for (int cell = 0; cell < map.cellCount(); ++cell)
   {
     expectSame(fine, map, cell);
