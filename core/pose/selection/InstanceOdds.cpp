@@ -16,7 +16,7 @@ namespace
 constexpr double Likely = 0.5;          // place of a pose that explains what it lies on
 constexpr std::size_t MostShowing = 20; // poses that tell in what they differ
 constexpr double PriorOfSame = 3.0; // log odds that it is the part: another lies there by mistake, one time in twenty
-constexpr double OfDifferentPatch = -5.0;
+constexpr double OfDifferentPatch = -5.0; // beyond chance
 }
 
 void allowFor(FinishedInstance& finished, double certainty)
