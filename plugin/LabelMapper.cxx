@@ -121,7 +121,7 @@ void LabelMapper::RenderOpaqueGeometry(vtkViewport* viewport, vtkActor2D* actor)
   this->Superclass::RenderOpaqueGeometry(viewport, actor);
   const bool isNew = this->BuildTime > built; // by the superclass, from the data
   const int dpi = viewport->GetVTKWindow()->GetDPI();
-  if (isNew)
+  if (isNew || this->NumberOfLabels == 0) // without data the superclass builds nothing
   {
     this->collect();
   }

@@ -159,15 +159,26 @@ vtkSmartPointer<vtkDataObject> dataOf(vtkSMSourceProxy* source, unsigned int por
   {
     auto proxy = vtkSmartPointer<vtkSMSourceProxy>::Take(
       vtkSMSourceProxy::SafeDownCast(source->GetSessionProxyManager()->NewProxy("filters", name)));
-    vtkSMPropertyHelper(proxy, "Input").Set(input, inputPort);
+    if (proxy)
+    {
+      vtkSMPropertyHelper(proxy, "Input").Set(input, inputPort);
+    }
     return proxy;
   };
   const auto ofFirst = make("ReductionFilter", source, port);
+  if (!ofFirst)
+  {
+    return nullptr;
+  }
   vtkSMPropertyHelper(ofFirst, "PassThrough").Set(0);
   ofFirst->UpdateVTKObjects();
   ofFirst->UpdatePipeline();
   vtkPVDataInformation* data = ofFirst->GetDataInformation(0);
-  const auto mover = make("ClientServerMoveData", ofFirst, 0);
+  const auto mover = data->GetDataSetType() >= 0 ? make("ClientServerMoveData", ofFirst, 0) : nullptr;
+  if (!mover)
+  {
+    return nullptr;
+  }
   vtkSMPropertyHelper(mover, "OutputDataType").Set(data->GetDataSetType());
   vtkSMPropertyHelper(mover, "WholeExtent").Set(data->GetExtent(), 6);
   mover->UpdateVTKObjects();

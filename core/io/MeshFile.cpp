@@ -123,6 +123,7 @@ TriangleMesh readTextSTL(const std::string& path, std::string_view text, const P
   Points vertices;
   std::size_t start = 0; // of the facet
   bool isWhole = false, hasEnds = false, endsWithFacet = false;
+  int solids = 0;
   const Progress parsing = subProgress(progress, 0.0, 0.5);
   TextLines lines(text);
   for (std::size_t line = 0; lines.next(); ++line)
@@ -147,6 +148,7 @@ TriangleMesh readTextSTL(const std::string& path, std::string_view text, const P
       else if (word == "solid" || word == "endsolid") // a name follows
       {
         isWhole = word == "endsolid";
+        solids += word == "solid";
         hasEnds = hasEnds || isWhole;
         break;
       }
@@ -154,7 +156,7 @@ TriangleMesh readTextSTL(const std::string& path, std::string_view text, const P
   }
   TriangleMesh mesh = joined(vertices, subProgress(progress, 0.5, 1.0));
   // Some programs leave the end out; what is cut off is open, or ends within a facet.
-  isWhole = isWhole || (!hasEnds && endsWithFacet && isClosed(mesh));
+  isWhole = isWhole || (!hasEnds && solids == 1 && endsWithFacet && isClosed(mesh));
   if (!isWhole || vertices.size() % 3 != 0)
   {
     failMesh(path, "is cut off or damaged: it does not end with endsolid after whole triangles");

@@ -163,7 +163,7 @@ PLYHeader parsePLYHeader(const std::string& path, const std::string& bytes)
     else if (!first && !key.empty() && key != "comment" && key != "obj_info" && key != "end_header")
     {
       unknown = "has an unknown header line '" + key.substr(0, 40) + "'";
-      if (!header.elements.empty())
+      if (!header.elements.empty() || !hasFormat || header.encoding != PLYEncoding::Ascii)
       {
         failPLY(path, unknown);
       }
@@ -457,8 +457,8 @@ void takeFaces(const std::string& path, Values& values, const Element& face, boo
   {
     failPLY(path, "has its faces before its points, which is not read: save it with the points first");
   }
-  // MeshLab's colors of corners are longer than its header says.
-  const bool isLineEach = isLast && values.hasLines(face.count);
+  // MeshLab's colors of corners are longer than its header says, which has one color for a face.
+  const bool isLineEach = isLast && face.properties.size() > 1 && values.hasLines(face.count);
   std::vector<int> corners;
   const auto entry = [&](std::size_t k, double value)
   {

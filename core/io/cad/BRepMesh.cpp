@@ -14,6 +14,7 @@
 #include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
 #include <Geom_Curve.hxx>
+#include <Geom_Surface.hxx>
 #include <IGESControl_Reader.hxx>
 #include <IMeshTools_Parameters.hxx>
 #include <Interface_Check.hxx>
@@ -435,8 +436,8 @@ bool runsAlong(const TopoDS_Edge& edge, const TopoDS_Shape& others, double dista
 }
 
 /// Whether a face would show in triangles that are so far off it. It does not when it is as small as that, or when its
-/// boundary comes back where it went; of one with a seam, as a sphere's, it comes back round the face. One without
-/// edges is damaged.
+/// boundary comes back where it went; on a surface that closes on itself, as a sphere's, it may come back round the
+/// face. One without edges is damaged.
 bool isSeen(const TopoDS_Face& face, double deflection)
 {
   TopTools_IndexedMapOfShape edges; // counted from 1
@@ -446,6 +447,8 @@ bool isSeen(const TopoDS_Face& face, double deflection)
   {
     return isSeen;
   }
+  const Handle(Geom_Surface) surface = BRep_Tool::Surface(face);
+  isSeen = surface.IsNull() || (surface->IsUClosed() || surface->IsVClosed());
   for (int i = 1; i <= edges.Extent() && !isSeen; ++i)
   {
     TopoDS_Compound others;

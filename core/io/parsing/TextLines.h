@@ -40,7 +40,7 @@ public:
       const std::size_t end = std::min(this->Rest.find_first_of("\r\n"), this->Rest.size());
       this->Line = this->Rest.substr(0, end);
       this->Rest.remove_prefix(std::min(end + 1, this->Rest.size()));
-      this->Line = this->Line.substr(0, this->Line.find('#'));
+      this->Line = this->Line.substr(0, this->commentAt());
       if (this->Line.find_first_not_of(" \t") != std::string_view::npos)
       {
         return true;
@@ -67,6 +67,17 @@ public:
   std::size_t left() const { return this->Line.size() + 1 + this->Rest.size(); }
 
 private:
+  /// Where a comment begins; 1.#QNAN is a number of Windows.
+  std::size_t commentAt() const
+  {
+    std::size_t at = this->Line.find('#');
+    while (at != std::string_view::npos && at > 0 && this->Line[at - 1] == '.')
+    {
+      at = this->Line.find('#', at + 1);
+    }
+    return at;
+  }
+
   std::string_view Rest;
   std::string_view Line;
 };

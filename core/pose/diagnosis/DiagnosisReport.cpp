@@ -163,8 +163,8 @@ std::string contradictionWords(const Contradictions& contradictions)
   }
   if (contradictions.surplus > contradictions.missing)
   {
-    return "on most copies in the scan surface goes on over " + std::to_string(contradictions.surplus) +
-           " patches where the part's ends";
+    return "on most copies in the scan there is surface where the part's ends, over " +
+           std::to_string(contradictions.surplus) + " patches";
   }
   if (contradictions.missing > 0)
   {

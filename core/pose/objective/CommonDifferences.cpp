@@ -3,6 +3,7 @@
 
 #include "base/Parallel.h"
 #include "model/BodyInterior.h"
+#include "pose/objective/BodyOverlap.h"
 
 #include <algorithm>
 #include <array>
@@ -32,6 +33,7 @@ constexpr float Step = 0.01f;         // from Beside on
 constexpr float SmearedPixels = 5.0f; // off the part at least: so far sensors carry a face beyond its rim
 constexpr float SameFace = 0.01f;     // off a face: on what goes on from it, or so near by the noise,
 constexpr float MostSameFace = 0.04f; // and no more along the line of sight: else what lies behind may seem to be on it
+constexpr double MostApart = 1.2;     // from middle to middle of a copy that may lie beside
 constexpr float OfBin = 0.03f;        // off the bin's floor or a wall
 
 using Patch = std::array<int, 3>;
@@ -108,8 +110,9 @@ std::vector<Points> besideSamples(const TrainedModel& model, double pitch, int t
 class CopiesInSight
 {
 public:
-  CopiesInSight(const Poses& poses, const Scene& scene, const TrainedModel& model, int threads)
-    : All(poses)
+  CopiesInSight(const Poses& poses, const Poses& beside, const Scene& scene, const TrainedModel& model, int threads)
+    : Copies(poses)
+    , Others(beside)
     , InScene(scene)
     , Model(model)
     , Noise(static_cast<float>(OnPartNoises * scene.quality.noise))
@@ -120,7 +123,8 @@ public:
 
   void collect(int copy, Patches& ofPart, Patches& beside) const
   {
-    const Pose& pose = this->All[copy];
+    const Pose& pose = this->Copies[copy];
+    const std::vector<Eigen::Isometry3f> others = this->lyingBeside(pose.T_scene_model);
     const Eigen::Isometry3f T = pose.T_scene_model.cast<float>();
     const Eigen::Vector3f towards = this->Model.visibility->towards(pose.T_scene_model, this->InScene.sensor);
     const float onPart = std::max(static_cast<float>(OnPart * this->Model.diameter), this->Noise);
@@ -132,7 +136,7 @@ public:
       {
         for (const Eigen::Vector3f& point : this->BesideSamples[i])
         {
-          this->addBeside(point, T, copy, this->Face / facing, beside);
+          this->addBeside(point, T, others, this->Face / facing, beside);
         }
       }
     }
@@ -164,14 +168,14 @@ private:
     }
   }
 
-  void addBeside(
-    const Eigen::Vector3f& point, const Eigen::Isometry3f& T, int copy, float tolerance, Patches& patches) const
+  void addBeside(const Eigen::Vector3f& point, const Eigen::Isometry3f& T, const std::vector<Eigen::Isometry3f>& others,
+    float tolerance, Patches& patches) const
   {
     PatchPoints& patch = this->patchOf(point, patches);
     switch (this->InScene.fineDepth.relation(T * point, tolerance))
     {
       case DepthGrid::Relation::OnSurface:
-        ++(this->isOfOther(T * point, copy) ? patch.hidden : patch.different);
+        ++(this->isOfOther(T * point, others, tolerance) ? patch.hidden : patch.different);
         break;
       case DepthGrid::Relation::InFront:
         ++patch.asPart;
@@ -184,29 +188,38 @@ private:
     }
   }
 
-  /// Whether a point is of the bin or lies on another copy.
-  bool isOfOther(const Eigen::Vector3f& point, int copy) const
+  /// Of the others, T_model_scene.
+  std::vector<Eigen::Isometry3f> lyingBeside(const Eigen::Isometry3d& T_scene_model) const
   {
-    const float diameter = static_cast<float>(this->Model.diameter);
-    for (const Plane& plane : this->InScene.enclosure)
+    const Eigen::Vector3d middle = this->Model.visibility->middle().cast<double>();
+    std::vector<Eigen::Isometry3f> beside;
+    for (const Pose& other : this->Others)
     {
-      if (std::abs(plane.signedDistance(point)) < OfBin * diameter)
+      const Eigen::Isometry3d& T = other.T_scene_model;
+      if (translationError(T, T_scene_model, middle) < MostApart * this->Model.diameter &&
+          !bodiesOverlap(this->Model, T, T_scene_model))
       {
-        return true;
+        beside.push_back(T.inverse().cast<float>());
       }
     }
-    for (int other = 0; other < static_cast<int>(this->All.size()); ++other)
-    {
-      if (other != copy && this->Model.surfaceDistance.at(this->All[other].T_scene_model.inverse().cast<float>() *
-                                                          point) < static_cast<float>(OnPart) * diameter)
-      {
-        return true;
-      }
-    }
-    return false;
+    return beside;
   }
 
-  const Poses& All;
+  /// Whether a point is of the bin or lies on another copy. `tolerance`: mm, what was measured may be off it.
+  bool isOfOther(const Eigen::Vector3f& point, const std::vector<Eigen::Isometry3f>& others, float tolerance) const
+  {
+    const float diameter = static_cast<float>(this->Model.diameter);
+    const float near =
+      std::min(std::max(static_cast<float>(OnPart) * diameter, tolerance), NearlyBeside * Beside * diameter);
+    const auto& planes = this->InScene.enclosure;
+    return std::any_of(planes.begin(), planes.end(),
+             [&](const Plane& plane) { return std::abs(plane.signedDistance(point)) < OfBin * diameter; }) ||
+           std::any_of(others.begin(), others.end(),
+             [&](const Eigen::Isometry3f& other) { return this->Model.surfaceDistance.at(other * point) < near; });
+  }
+
+  const Poses& Copies;
+  const Poses& Others;
   const Scene& InScene;
   const TrainedModel& Model;
   float Noise, Face; ///< mm
@@ -246,15 +259,17 @@ int differentOnMost(const std::vector<Patches>& ofCopies)
 }
 }
 
-CommonDifferences commonDifferences(const Poses& poses, const Scene& scene, const TrainedModel& model, int threads)
+CommonDifferences commonDifferences(
+  const Poses& poses, const Poses& beside, const Scene& scene, const TrainedModel& model, int threads)
 {
   if (poses.size() < CopiesOfPatch)
   {
     return {};
   }
-  const CopiesInSight copies(poses, scene, model, threads);
-  std::vector<Patches> ofPart(poses.size()), beside(poses.size());
-  parallelForEach(static_cast<int>(poses.size()), threads, {}, [&](int i) { copies.collect(i, ofPart[i], beside[i]); });
-  return { differentOnMost(ofPart), differentOnMost(beside) };
+  const CopiesInSight copies(poses, beside, scene, model, threads);
+  std::vector<Patches> ofPart(poses.size()), besidePart(poses.size());
+  parallelForEach(
+    static_cast<int>(poses.size()), threads, {}, [&](int i) { copies.collect(i, ofPart[i], besidePart[i]); });
+  return { differentOnMost(ofPart), differentOnMost(besidePart) };
 }
 }

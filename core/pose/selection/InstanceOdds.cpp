@@ -15,6 +15,7 @@ namespace
 {
 constexpr double Likely = 0.5;          // place of a pose that explains what it lies on
 constexpr std::size_t MostShowing = 20; // poses that tell in what they differ
+constexpr double MayLieBeside = 0.1;    // place of a pose that what goes on beside another may belong to
 constexpr double PriorOfSame = 3.0; // log odds that it is the part: another lies there by mistake, one time in twenty
 constexpr double OfDifferentPatch = -5.0; // beyond chance
 }
@@ -115,17 +116,26 @@ void allowForLookalikes(
 CommonDifferences differencesOfLikely(
   const FinishedInstances& found, const Scene& scene, const TrainedModel& model, int threads)
 {
-  return commonDifferences(likelyOf(found, MostShowing), scene, model, threads);
+  Poses beside;
+  for (const FinishedInstance& finished : found)
+  {
+    if (finished.pose.placeProbability >= MayLieBeside)
+    {
+      beside.push_back(finished.pose);
+    }
+  }
+  return commonDifferences(likelyOf(found, MostShowing), beside, scene, model, threads);
 }
 
 void allowForDifferences(FinishedInstances& found, const CommonDifferences& differences, double excused)
 {
-  const double patches = differences.missing + (1.0 - excused) * differences.surplus;
+  const int surplus = static_cast<int>(std::lround((1.0 - excused) * differences.surplus));
+  const int patches = differences.missing + surplus;
   for (FinishedInstance& finished : found)
   {
     finished.pose.contradictions.missing = differences.missing;
-    finished.pose.contradictions.surplus = differences.surplus;
-    if (patches > 0.0)
+    finished.pose.contradictions.surplus = surplus;
+    if (patches > 0)
     {
       allowFor(finished, probabilityOf(PriorOfSame + OfDifferentPatch * patches));
     }

@@ -69,7 +69,8 @@ CentredPoints centredPoints(const Points& points)
   }
   std::transform(
     sampled.begin(), sampled.end(), values.begin(), [&](const auto& place) { return (place - result.middle).norm(); });
-  const double most = SeenStraysBeyond * medianOf(values);
+  std::vector<double> unordered = values; // which the median puts in another order
+  const double most = SeenStraysBeyond * medianOf(unordered);
   double squares = 0.0;
   for (std::size_t k = 0; k < sampled.size(); ++k)
   {

@@ -215,6 +215,7 @@ TEST(MeshFile, WhatIsWrongWithAFile)
     { "a.stl", "solid part\nfacet\nendsolid part\n", "no faces" }, { "a.ply", "no mesh at all", "" },
     { "a.ply", asciiPLY({}) /* cannot have faces */, "" }, { "a.obj", "v 0 0 0\nv 1 0 0\n", "no faces" },
     { "a.stl", "solid\nfacet normal 0 0 0\nouter loop\nvertex 1,5 0 0\n", "decimal comma" },
+    { "a.obj", "v 0 0 1.#QNAN\n", "has the coordinate '1.#QNAN', which is not a number" },
     { "a.obj", "v 0 3.1+e2 0\n", "has the coordinate '3.1+e2', which is not a number" },
     { "a.obj", "v 0 1\n", "is not three numbers" }, { "a.obj", "no mesh at all", "no lines of vertices" },
     { "a.obj", "v 0 0 0\nv 1 0 0\nl 1 2\n", "but points or lines" },

@@ -138,6 +138,8 @@ TEST(PLYFile, linesThatOtherProgramsWrite)
   EXPECT_EQ(cut.triangles[1], Eigen::Vector3i(2, 1, 0));
   EXPECT_EQ(mesh("element vertex 3\n" + floats + face, "3 0 1 2 3 2 1 0").triangles.size(), 2u);
   EXPECT_THROW(mesh("element vertex 3\n" + floats + face, "3 0 1 2 7 3 2 1 0"), meam::Error);
+  EXPECT_THROW(mesh("element vertex 3\n" + floats + face, "3 0 1 2 1\n3 2 1 0 1\n"), meam::Error) << "no colors";
+  EXPECT_THROW(mesh("element vertex 3\n" + floats + "elemnt face 2\n" + face, "3 0 1 2\n3 2 1 0\n"), meam::Error);
   const std::string nan = "1.#QNAN -1.#IND 1.#INF\n";
   EXPECT_TRUE(readPLY(head("ascii", "element vertex 1\n" + floats) + nan).cloud.points[0].array().isNaN().all());
 }

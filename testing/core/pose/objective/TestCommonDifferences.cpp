@@ -52,8 +52,8 @@ Places inRow(int copies, double distance)
 
 /// In what copies of another plate at these places, and what else lies there, differ from a plate with a block on one
 /// corner.
-meam::CommonDifferences differencesOn(
-  const Places& places, const meam::TriangleMesh& other, const std::vector<scenes::Copy>& beside = {})
+meam::CommonDifferences differencesOn(const Places& places, const meam::TriangleMesh& other,
+  const std::vector<scenes::Copy>& beside = {}, std::size_t most = 20)
 {
   const meam::TrainedModel& model = scenes::trained<blockOnCorner>();
   std::vector<scenes::Copy> lying = beside;
@@ -68,8 +68,9 @@ meam::CommonDifferences differencesOn(
   {
     poses[i].T_scene_model = scene.T_local_scene() * places[i];
   }
-  const meam::CommonDifferences differences = meam::commonDifferences(poses, scene, model, 1);
-  const meam::CommonDifferences inParallel = meam::commonDifferences(poses, scene, model, 4);
+  const meam::Poses telling(poses.begin(), poses.begin() + std::min(most, poses.size()));
+  const meam::CommonDifferences differences = meam::commonDifferences(telling, poses, scene, model, 1);
+  const meam::CommonDifferences inParallel = meam::commonDifferences(telling, poses, scene, model, 4);
   EXPECT_EQ(inParallel.missing, differences.missing);
   EXPECT_EQ(inParallel.surplus, differences.surplus);
   return differences;
@@ -113,5 +114,5 @@ TEST(CommonDifferences, SurfaceOfALongerPlateGoesOn)
 
 TEST(CommonDifferences, ACopyThatTouchesIsNoSurfaceThatGoesOn)
 {
-  EXPECT_EQ(differencesOn(inRow(6, 60.0), blockOnCorner(), { floor(370.0f) }).surplus, 0); // plates of 60 mm
+  EXPECT_EQ(differencesOn(inRow(6, 60.0), blockOnCorner(), { floor(370.0f) }, 5).surplus, 0); // plates of 60 mm
 }
