@@ -194,7 +194,7 @@ def from_dataset(data, scale):
     ghosts = data.GetPointGhostArray()
     scan = _core.Scan(scaled(points.reshape(height, width, 3), scale, "scan"))
     if ghosts:
-        scan.blank(vtk_to_numpy(ghosts) & HIDDEN)
+        scan.blank(vtk_to_numpy(ghosts) & numpy.uint8(HIDDEN))
     return with_pixels(scan, data, height, width)
 
 

@@ -136,7 +136,7 @@ check("from where the fewest points hide others" in told and "the given viewpoin
 SEEN = {"scan": "robot.ply", "scale": 1000, "viewpoint": TURN[:3, 3] / 1000}
 model = ppfmeam.load("part.vtpc")
 found = ppfmeam.detect(model, **SEEN, poses=2)
-in_numbers = [tuple(float(f"{value!r}") for value in pose.ravel()) for pose in found.poses]
+in_numbers = [tuple(float(value) for value in pose.ravel()) for pose in found.poses]
 check(in_numbers == matrices("v.txt"), f"Python finds {in_numbers} and the command {matrices('v.txt')}")
 filter = connect(vtkMEAMPoseEstimation(), model.data, scripting.read_scan("robot.ply", 1000), MaximumNumberOfPoses=2)
 filter.SetProjectionToPerspective()
