@@ -115,7 +115,8 @@ endforeach()
 file(GLOB parts "${PROJECT_SOURCE_DIR}/examples/parts/*.stl")
 install(FILES ${parts} DESTINATION share/doc/${package_python}/examples/parts COMPONENT python EXCLUDE_FROM_ALL)
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/examples/cpp" "${PROJECT_SOURCE_DIR}/examples/cell"
-  DESTINATION share/doc/${package_dev}/examples COMPONENT dev EXCLUDE_FROM_ALL)
+  DESTINATION share/doc/${package_dev}/examples COMPONENT dev EXCLUDE_FROM_ALL
+  PATTERN __pycache__ EXCLUDE)
 install(FILES "${PROJECT_SOURCE_DIR}/examples/cell/cell.py" "${PROJECT_SOURCE_DIR}/examples/cell/ros2_node.py"
   DESTINATION share/doc/${package_python}/examples/cell COMPONENT python EXCLUDE_FROM_ALL)
 # ParaView lists the plugins that the first paraview.conf names. Debian's 5.13 comes with one, which names a folder for
