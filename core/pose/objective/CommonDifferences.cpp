@@ -152,40 +152,24 @@ private:
     Patches& patches) const
   {
     PatchPoints& patch = this->patchOf(point, patches);
-    switch (this->InScene.fineDepth.relation(T * point, behind))
-    {
-      case DepthGrid::Relation::OnSurface:
-        ++patch.asPart;
-        break;
-      case DepthGrid::Relation::InFront:
-        ++(isClearAbout(T * point, towards, behind, this->InScene.fineDepth) ? patch.different : patch.asPart);
-        break;
-      case DepthGrid::Relation::Hidden:
-        ++patch.hidden;
-        break;
-      case DepthGrid::Relation::NoSurface:
-        break;
-    }
+    const DepthGrid::Relation relation = this->InScene.fineDepth.relation(T * point, behind);
+    const bool isInFront = relation == DepthGrid::Relation::InFront;
+    const bool isPast = isInFront && isClearAbout(T * point, towards, behind, this->InScene.fineDepth);
+    patch.different += isPast;
+    patch.asPart += relation == DepthGrid::Relation::OnSurface || (isInFront && !isPast);
+    patch.hidden += relation == DepthGrid::Relation::Hidden;
   }
 
   void addBeside(const Eigen::Vector3f& point, const Eigen::Isometry3f& T, const std::vector<Eigen::Isometry3f>& others,
     float tolerance, Patches& patches) const
   {
     PatchPoints& patch = this->patchOf(point, patches);
-    switch (this->InScene.fineDepth.relation(T * point, tolerance))
-    {
-      case DepthGrid::Relation::OnSurface:
-        ++(this->isOfOther(T * point, others, tolerance) ? patch.hidden : patch.different);
-        break;
-      case DepthGrid::Relation::InFront:
-        ++patch.asPart;
-        break;
-      case DepthGrid::Relation::Hidden:
-        ++patch.hidden;
-        break;
-      case DepthGrid::Relation::NoSurface:
-        break;
-    }
+    const DepthGrid::Relation relation = this->InScene.fineDepth.relation(T * point, tolerance);
+    const bool isSurface = relation == DepthGrid::Relation::OnSurface;
+    const bool isExplained = isSurface && this->isOfOther(T * point, others, tolerance);
+    patch.different += isSurface && !isExplained;
+    patch.asPart += relation == DepthGrid::Relation::InFront;
+    patch.hidden += relation == DepthGrid::Relation::Hidden || isExplained;
   }
 
   /// Of the others, T_model_scene.
