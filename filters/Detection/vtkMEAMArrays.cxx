@@ -125,6 +125,19 @@ vtkDataArray* pointArray(vtkDataSet* input, const char* name, int components)
   return array;
 }
 
+int wholeIn(vtkDataArray* array, vtkIdType place)
+{
+  const double value = array->GetComponent(place, 0);
+  if (!(std::abs(value) <= VTK_INT_MAX) || value != std::floor(value))
+  {
+    std::ostringstream words;
+    words << "Value " << place + 1 << " of the array " << quoted(array->GetName())
+          << " is not a whole number: " << value << ".";
+    throw Error(words.str());
+  }
+  return static_cast<int>(value);
+}
+
 const unsigned char* ghostsOf(vtkDataSet* input)
 {
   auto* ghosts =

@@ -44,6 +44,9 @@ vtkSmartPointer<vtkPoints> toVTKPoints(const meam::Points& points);
 /// The point array of that name, or null; throws when its shape is another one.
 vtkDataArray* pointArray(vtkDataSet* input, const char* name, int components);
 
+/// A number of an array of one component. Throws Error for one that is not whole.
+int wholeIn(vtkDataArray* array, vtkIdType place);
+
 /// The flags of a data set's points, of which vtkDataSetAttributes::HIDDENPOINT is that of a blanked one; null when it
 /// has none. A raw pointer, because VTK's accessors are too slow for a scan.
 const unsigned char* ghostsOf(vtkDataSet* input);

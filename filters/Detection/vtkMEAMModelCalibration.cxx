@@ -37,6 +37,7 @@ vtkDataArray* judgedArray(vtkPolyData* poses, const char* name)
 
 std::vector<meam::JudgedPose> toJudgedPoses(vtkPolyData* input)
 {
+  using vtkMEAMConversion::wholeIn;
   vtkDataArray* place = judgedArray(input, "PlaceProbability");
   vtkDataArray* certainty = judgedArray(input, "Certainty");
   vtkDataArray* scene = judgedArray(input, "Scene");
@@ -45,9 +46,8 @@ std::vector<meam::JudgedPose> toJudgedPoses(vtkPolyData* input)
   return meam::ofIndices<meam::JudgedPose>(input->GetNumberOfPoints(),
     [&](int k)
     {
-      return meam::JudgedPose{ place->GetComponent(k, 0), certainty->GetComponent(k, 0),
-        isThere->GetComponent(k, 0) != 0.0, outcome->GetComponent(k, 0) == 0.0,
-        static_cast<int>(scene->GetComponent(k, 0)) };
+      return meam::JudgedPose{ place->GetComponent(k, 0), certainty->GetComponent(k, 0), wholeIn(isThere, k) != 0,
+        wholeIn(outcome, k) == 0, wholeIn(scene, k) };
     });
 }
 

@@ -73,15 +73,22 @@ meam::Poses toPoses(vtkPolyData* input)
     if (residuals && iterations && covariances && constrained && axes)
     {
       pose.fit.residual = residuals->GetComponent(i, 0);
-      pose.fit.iterations = static_cast<int>(iterations->GetComponent(i, 0));
+      pose.fit.iterations = wholeIn(iterations, i);
       covariances->GetTuple(i, pose.fit.covariance.data());
-      pose.fit.constrained = static_cast<int>(constrained->GetComponent(i, 0));
+      pose.fit.constrained = wholeIn(constrained, i);
       axes->GetTuple(i, pose.fit.constrainedAxes.data());
     }
     poses.push_back(pose);
   }
-  // What is not there, or of a pose not a number, is as of a pose of which nothing is known.
-  const auto take = [&](const char* name, auto Pose::*member)
+  const auto takeWhole = [&](const char* name, int Pose::*member)
+  {
+    vtkDataArray* array = pointArray(input, name, 1);
+    for (vtkIdType i = 0; array && i < count; ++i)
+    {
+      poses[i].*member = wholeIn(array, i);
+    }
+  };
+  const auto take = [&](const char* name, double Pose::*member, bool mayLack)
   {
     vtkDataArray* array = pointArray(input, name, 1);
     for (vtkIdType i = 0; array && i < count; ++i)
@@ -89,18 +96,24 @@ meam::Poses toPoses(vtkPolyData* input)
       const double value = array->GetComponent(i, 0);
       if (!std::isnan(value))
       {
-        poses[i].*member = static_cast<std::decay_t<decltype(poses[i].*member)>>(value);
+        poses[i].*member = value;
+      }
+      else if (!mayLack)
+      {
+        throw Error("Pose " + std::to_string(i) + " has a " + quoted(name) +
+                    " that is not a number: give it one, or take it out.");
       }
     }
   };
-  take("Score", &Pose::score);
-  take("PlaceProbability", &Pose::placeProbability);
-  take("Probability", &Pose::probability);
-  take("Evidence", &Pose::evidence);
-  take("Votes", &Pose::votes);
-  take("ViewId", &Pose::viewId);
-  take("VisibleFraction", &Pose::visibleFraction);
-  take("Certainty", &Pose::certainty);
+  takeWhole("Votes", &Pose::votes);
+  takeWhole("ViewId", &Pose::viewId);
+  take("Score", &Pose::score, false);
+  take("Evidence", &Pose::evidence, false);
+  // Not a number of those poses of a file of which it is not known:
+  take("PlaceProbability", &Pose::placeProbability, true);
+  take("Probability", &Pose::probability, true);
+  take("VisibleFraction", &Pose::visibleFraction, true);
+  take("Certainty", &Pose::certainty, true);
   return poses;
 }
 
@@ -226,7 +239,7 @@ std::vector<int> typesOf(vtkPolyData* poses, int connected)
     }
     for (std::size_t k = 0; k < types.size(); ++k)
     {
-      types[k] = static_cast<int>(parts->GetComponent(static_cast<vtkIdType>(k), 0));
+      types[k] = wholeIn(parts, static_cast<vtkIdType>(k));
     }
   }
   return types;

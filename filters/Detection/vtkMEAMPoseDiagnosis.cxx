@@ -123,7 +123,7 @@ std::vector<meam::FoundPose> foundPoses(vtkPolyData* given, const meam::Poses& p
   std::vector<meam::FoundPose> found;
   for (std::size_t k = 0; isKnown && !isOfOthers && k < poses.size() && types[k] >= 0; ++k)
   {
-    const int rank = static_cast<int>(ranks ? ranks->GetComponent(static_cast<vtkIdType>(k), 0) : k + 1.0);
+    const int rank = ranks ? vtkMEAMConversion::wholeIn(ranks, static_cast<vtkIdType>(k)) : static_cast<int>(k) + 1;
     found.push_back({ types[k], rank, poses[k] });
   }
   return found;

@@ -61,7 +61,7 @@ int vtkMEAMPoseInstances::RequestData(
       const meam::Poses poses = vtkMEAMConversion::toPoses(posesInput);
       vtkDataArray* ranks = posesInput->GetPointData()->GetArray("Rank");
       const auto rankOf = [&](std::size_t k)
-      { return ranks ? std::max(1, static_cast<int>(ranks->GetComponent(k, 0))) : static_cast<int>(k) + 1; };
+      { return ranks ? std::max(1, vtkMEAMConversion::wholeIn(ranks, k)) : static_cast<int>(k) + 1; };
       const auto meshes = meam::ofIndices<vtkPolyData*>(inputVector[1]->GetNumberOfInformationObjects(),
         [&](int type) { return vtkPolyData::GetData(inputVector[1], type); });
       const std::vector<int> types = vtkMEAMConversion::typesOf(posesInput, static_cast<int>(meshes.size()));

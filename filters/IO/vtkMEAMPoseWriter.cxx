@@ -4,6 +4,7 @@
 #include "calibration/RobotFrameFile.h"
 #include "io/DetectionArrayFile.h"
 #include "io/PoseFile.h"
+#include "vtkMEAMArrays.h"
 #include "vtkMEAMPoseConversion.h"
 #include "vtkMEAMRun.h"
 
@@ -66,8 +67,8 @@ int numberOf(vtkPolyData* poses, const char* name, vtkIdType pose)
 {
   vtkDataArray* ofEach = poses->GetPointData()->GetArray(name);
   vtkDataArray* ofAll = poses->GetFieldData()->GetArray(name);
-  return ofEach                                     ? static_cast<int>(ofEach->GetComponent(pose, 0))
-         : ofAll && ofAll->GetNumberOfValues() == 1 ? static_cast<int>(ofAll->GetComponent(0, 0))
+  return ofEach                                     ? vtkMEAMConversion::wholeIn(ofEach, pose)
+         : ofAll && ofAll->GetNumberOfValues() == 1 ? vtkMEAMConversion::wholeIn(ofAll, 0)
                                                     : 0;
 }
 }
@@ -125,11 +126,11 @@ void vtkMEAMPoseWriter::WriteData()
         meam::PoseRow row;
         row.sceneId = this->SceneId >= 0 ? this->SceneId : numberOf(input, "SceneId", rows.size());
         row.imageId = this->ImageId >= 0 ? this->ImageId : numberOf(input, "ImageId", rows.size());
-        row.objectId = this->ObjectId + (parts ? static_cast<int>(parts->GetComponent(rows.size(), 0)) : 0);
+        row.objectId = this->ObjectId + (parts ? vtkMEAMConversion::wholeIn(parts, rows.size()) : 0);
         row.T_scene_model = pose.T_scene_model;
         row.score = meam::probabilityOrScore(pose);
         row.time = this->Time >= 0.0 ? this->Time : measured;
-        row.rank = ranks ? static_cast<int>(ranks->GetComponent(rows.size(), 0)) : static_cast<int>(rows.size()) + 1;
+        row.rank = ranks ? vtkMEAMConversion::wholeIn(ranks, rows.size()) : static_cast<int>(rows.size()) + 1;
         row.viewId = pose.viewId;
         if (known("Votes"))
         {

@@ -78,11 +78,12 @@ check(written["poses"] == 40 and [*written["places"], *written["rotations"]] == 
 check("calibrated on 40 poses" in text and "75.0%" in text, text)
 check([value for value, in field(ppfmeam.load("told.meam").data, "Calibration")] == numbers, "as by the filter")
 for name, change in (("none", lambda text: text.replace(",right", "")), ("word", lambda text: text.replace(",turned", ",perhaps")),
-                     ("number", lambda text: text.replace(",0.25,", ",much,")), ("few", lambda text: "".join(text.splitlines(True)[:9]))):
+                     ("number", lambda text: text.replace(",0.25,", ",much,")), ("nan", lambda text: text.replace(",0.25,", ",nan,")), ("few", lambda text: "".join(text.splitlines(True)[:9]))):
     write(f"{name}.csv", change(read("judged.csv")))
 refuses("no column right", "calibrate.py", "none.csv", "--model", "part.meam", "--out", "no.meam")
 refuses("'perhaps'", "calibrate.py", "word.csv", "--model", "part.meam", "--out", "no.meam")
 refuses("not a number", "calibrate.py", "number.csv", "--model", "part.meam", "--out", "no.meam")
+refuses("not a number", "calibrate.py", "nan.csv", "--model", "part.meam", "--out", "no.meam")
 refuses("20 judged poses in 5 scans", "calibrate.py", "few.csv", "--model", "part.meam", "--out", "no.meam")
 refuses("ends in .meam", "calibrate.py", "judged.csv", "--model", "part.stl", "--out", "no.meam")
 refuses("nowhere.csv", "calibrate.py", "nowhere.csv", "--model", "part.meam", "--out", "no.meam")

@@ -56,8 +56,10 @@ def confirmed(path):
                 raise scripting.Failure(f"{path}, line {table.line_num}: right is '{line['right']}', not 1, `turned` or 0")
             try:
                 place, probability = float(line["place_probability"]), float(line["probability"])
+                if not (0 <= place <= 1 and 0 <= probability <= 1):
+                    raise ValueError
             except ValueError:
-                raise scripting.Failure(f"{path}, line {table.line_num}: a probability is not a number") from None
+                raise scripting.Failure(f"{path}, line {table.line_num}: a probability is not a number from 0 to 1") from None
             certainty = min(probability / place, 1.0) if place > 0 else 1.0
             rows.append((place, certainty, scenes.setdefault(line["scan"], len(scenes)), *VERDICTS[verdict]))
     values = numpy.array(rows, float).reshape(-1, len(ARRAYS))
