@@ -37,6 +37,21 @@ constexpr std::array<GripperLength, 10> GripperLengths{ { { "Opening", &meam::Gr
   { "BodyWidth", &meam::Gripper::bodyWidth }, { "CupDiameter", &meam::Gripper::cupDiameter },
   { "CupLength", &meam::Gripper::cupLength } } };
 
+/// A gripper that leaves the parts in sight: jaws and what joins them, or the rim of a cup and what holds it.
+meam::Gripper linesOf(const meam::Gripper& gripper, const meam::Grasp& grasp)
+{
+  constexpr double Thickness = 0.03; // of the length of a finger or a cup
+  const bool isCup = grasp.kind == meam::GraspKind::Suction;
+  const double thin = Thickness * (isCup ? gripper.cupLength : gripper.fingerLength);
+  meam::Gripper lines = gripper;
+  lines.mesh = {};
+  lines.kind = grasp.kind;
+  lines.opening = grasp.width + 2.0 * gripper.jawClearance;
+  lines.fingerWidth = lines.fingerThickness = lines.bodyWidth = lines.cupLength = thin;
+  lines.bodyLength = isCup ? gripper.cupLength : thin;
+  return lines;
+}
+
 /// Faces one after the other, with a value of each array for all cells of a piece.
 class Pieces
 {
@@ -151,16 +166,19 @@ void addInFrame(const meam::Picks& picks, const meam::Pose& frame, const char* n
 }
 
 void fromGrippers(const meam::Picks& picks, const GraspOf& graspOf, const meam::Gripper& gripper,
-  const std::vector<bool>& drawn, vtkPolyData* output)
+  const std::vector<bool>& drawn, int whole, vtkPolyData* output)
 {
   Pieces pieces({ "Possible", "Rank", "Obstruction" });
   for (std::size_t k = 0; k < picks.size(); ++k)
   {
     const meam::Pick& pick = picks[k];
+    const int rank = static_cast<int>(k) + 1;
     if (drawn[k])
     {
-      pieces.add(meam::meshOf(gripper, graspOf(pick)), pick.T_scene_grasp,
-        { pick.possible() ? 1 : 0, static_cast<int>(k) + 1, static_cast<int>(pick.obstruction) });
+      const meam::Grasp& grasp = graspOf(pick);
+      const bool isWhole = whole == 0 || whole == rank;
+      pieces.add(meam::meshOf(isWhole ? gripper : linesOf(gripper, grasp), grasp), pick.T_scene_grasp,
+        { pick.possible() ? 1 : 0, rank, static_cast<int>(pick.obstruction) });
     }
   }
   pieces.write(output);
@@ -242,7 +260,7 @@ std::vector<bool> possiblePicks(vtkPolyData* input)
   vtkDataArray* array = pointArray(input, "Possible", 1);
   for (vtkIdType k = 0; k < input->GetNumberOfPoints(); ++k)
   {
-    possible.push_back(!array || array->GetComponent(k, 0) != 0.0);
+    possible.push_back(!array || wholeIn(array, k) != 0);
   }
   return possible;
 }

@@ -42,9 +42,10 @@ void addParts(const meam::Picks& picks, const std::vector<int>& parts, vtkPolyDa
 /// components, row-major.
 void addInFrame(const meam::Picks& picks, const meam::Pose& frame, const char* name, vtkPolyData* output);
 
-/// The gripper at the picks that get one, with `Rank`, `Possible` and `Obstruction` for its cells.
+/// The gripper at the picks that get one, with `Rank`, `Possible` and `Obstruction` for its cells: whole at the pick of
+/// that rank, at all where it is 0, and as thin lines at the others.
 void fromGrippers(const meam::Picks& picks, const GraspOf& graspOf, const meam::Gripper& gripper,
-  const std::vector<bool>& drawn, vtkPolyData* output);
+  const std::vector<bool>& drawn, int whole, vtkPolyData* output);
 
 /// The floor and the walls, to look at.
 void fromBin(const meam::Bin& bin, vtkPolyData* output);

@@ -210,7 +210,7 @@ int vtkMEAMPickPlanning::RequestData(
       setFieldText(output, "PickReport", report);
       setFieldText(output, "PickAdvice", advice);
       fromAnswer({ report, advice }, answer);
-      fromGrippers(picks, graspOf, gripper, drawn, grippers);
+      fromGrippers(picks, graspOf, gripper, drawn, this->WholeGripper, grippers);
       if (!gripperInput)
       {
         setGripper(output, gripper);
@@ -245,4 +245,5 @@ void vtkMEAMPickPlanning::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Tolerance: " << this->GetTolerance() << " mm\n";
   os << indent << "RobotFrameFile: " << (this->RobotFrameFile ? this->RobotFrameFile : "(none)") << "\n";
   os << indent << "ShownGrippers: " << this->ShownGrippers << "\n";
+  os << indent << "WholeGripper: " << this->WholeGripper << "\n";
 }

@@ -174,6 +174,10 @@ public:
    * possible of poses whose `Label` is empty, which are not shown. Default: BestOfEachInstance. */
   vtkMEAMClampedMemberMacro(ShownGrippers, int, BestOfEachInstance, AllPicks);
 
+  /** Rank of the pick at which the gripper is shown whole; at the others thin lines leave the parts in sight. 0: it is
+   * shown whole at all. Default: 1. */
+  vtkMEAMClampedMemberMacro(WholeGripper, int, 0, VTK_INT_MAX);
+
 protected:
   vtkMEAMPickPlanning();
   ~vtkMEAMPickPlanning() override;
@@ -192,6 +196,7 @@ private:
   double BinWall = 5.0;
   char* RobotFrameFile = nullptr;
   int ShownGrippers = BestOfEachInstance;
+  int WholeGripper = 1;
 };
 
 #endif

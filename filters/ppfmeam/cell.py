@@ -211,6 +211,7 @@ def picks_of(station, bin, film=None, strip=None):
                    reason=f"{text(picks, 'GraspName', pick)}, clearance {scripting.column(picks, 'Clearance')[pick]:.1f} mm")
         if film or strip:
             station.planning.SetShownGrippers(station.planning.AllPossible)
+            station.planning.SetWholeGripper(pick + 1)
             gripper = scripting.with_value(scripting.update(station.planning).GetOutputDataObject(1), "Rank", pick + 1,
                                            cells=True)
             station.planning.SetShownGrippers(station.planning.BestOfEachInstance)

@@ -75,6 +75,22 @@ check(gripper.GetNumberOfCells() == 2 * 36, "a gripper of three boxes at the bes
 check(texts(picks, "Label") == ["pick 1", "pick 2", "", ""], f"labels where a gripper is: {texts(picks, 'Label')}")
 check(set(gripper.GetCellData().GetArray("Possible").GetValue(i) for i in range(72)) == {1}, "both are possible")
 check(planning.GetOutputDataObject(2).GetNumberOfCells() == 60, "the bin's floor and walls")
+
+
+def widths():
+    """mm, across the grippers at the first two picks, along y."""
+    data = planning.GetOutputDataObject(1)
+    ends = [data.GetPoint(k)[1] for k in range(data.GetNumberOfPoints())]
+    half = len(ends) // 2
+    return [max(of) - min(of) for of in (ends[:half], ends[half:])]
+
+
+whole = widths()[0]
+check(widths()[1] < 0.2 * whole, f"the gripper is thin lines where it is not the best: {widths()}")
+for rank, thin in ((2, [0]), (0, [])):
+    planning.SetWholeGripper(rank)
+    run(planning)
+    check([k for k in (0, 1) if widths()[k] < whole - 1e-3] == thin, f"whole at pick {rank}: {widths()}")
 planning.SetShownGrippers(planning.AllPicks)
 picks = run(planning)
 check(planning.GetOutputDataObject(1).GetNumberOfCells() == 4 * 36, "a gripper at each pick")
