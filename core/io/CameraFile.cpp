@@ -5,6 +5,7 @@
 #include "base/Frames.h"
 #include "io/parsing/FileBytes.h"
 #include "io/parsing/StorageText.h"
+#include "io/parsing/TextLines.h"
 
 #include <nlohmann/json.hpp>
 
@@ -12,10 +13,10 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <cstdio>
 #include <initializer_list>
 #include <iterator>
 #include <optional>
-#include <tuple>
 
 namespace meam
 {
@@ -23,7 +24,8 @@ namespace
 {
 // A calibration is a page of text; more is another kind of file.
 constexpr std::size_t MostBytes = 1 << 20;
-constexpr double MostPixels = 65535.0; // in a row or a column
+constexpr double MostPixels = 65535.0;    // in a row or a column
+constexpr double LeastFocalLength = 0.05; // of the image's width: a pinhole camera of 170 degrees
 
 [[noreturn]] void failCamera(const std::string& path, const std::string& what)
 {
@@ -44,29 +46,41 @@ std::string bareName(const std::string& name)
   return bare;
 }
 
-/// Numbers by any of the names, empty without; fails when there are not as many as there should be.
-std::vector<double> find(const std::string& path, const nlohmann::json& entries,
-  std::initializer_list<const char*> names, std::size_t fewest, std::size_t most)
+using Names = std::initializer_list<const char*>;
+
+/// The name in the file of the entry that has the first of the names; empty without.
+std::string keyOf(const nlohmann::json& entries, Names names)
 {
   for (const char* name : names)
   {
     const std::string bare = bareName(name);
     for (const auto& [key, value] : entries.items()) // of a list the keys are numbers
     {
-      if (bareName(key) != bare)
+      if (bareName(key) == bare)
       {
-        continue;
+        return key;
       }
-      const std::vector<double> numbers = numbersOfMatrix(value, path, key);
-      if (numbers.size() < fewest || numbers.size() > most)
-      {
-        failCamera(path,
-          "has " + std::to_string(numbers.size()) + " numbers as " + key + " instead of " + std::to_string(fewest));
-      }
-      return numbers;
     }
   }
   return {};
+}
+
+/// Numbers by any of the names, empty without; fails when there are not as many as there should be.
+std::vector<double> find(
+  const std::string& path, const nlohmann::json& entries, Names names, std::size_t fewest, std::size_t most)
+{
+  const std::string key = keyOf(entries, names);
+  if (key.empty())
+  {
+    return {};
+  }
+  const std::vector<double> numbers = numbersOfMatrix(entries[key], path, key);
+  if (numbers.size() < fewest || numbers.size() > most)
+  {
+    failCamera(
+      path, "has " + std::to_string(numbers.size()) + " numbers as " + key + " instead of " + std::to_string(fewest));
+  }
+  return numbers;
 }
 
 int pixels(const std::string& path, const std::vector<double>& numbers)
@@ -115,43 +129,90 @@ struct Intrinsics
   double fx, fy, cx, cy;
 };
 
+constexpr Names MatrixNames = { "camera_matrix", "K", "cam_K", "mtx", "M1", "intrinsic_matrix", "intrinsics",
+  "intrinsic", "camera_intrinsics" };
+
+/// Of fx 0 cx, 0 fy cy, 0 0 1, with a fourth column or not, row by row or, as Open3D and MATLAB have it, column by
+/// column; or of fx fy cx cy, as Kalibr has them.
+Intrinsics intrinsicsOfMatrix(const std::string& path, const std::string& key, const std::vector<double>& numbers)
+{
+  if (numbers.size() == 4)
+  {
+    return { numbers[0], numbers[1], numbers[2], numbers[3] };
+  }
+  const std::size_t columns = numbers.size() == 9 ? 3 : 4;
+  if (columns * 3 > numbers.size() || numbers.size() % columns != 0)
+  {
+    failCamera(path, "has " + std::to_string(numbers.size()) + " numbers as " + key + " instead of 9");
+  }
+  Eigen::Matrix3d K;
+  for (std::size_t row = 0; row < 3; ++row)
+  {
+    K.row(static_cast<Eigen::Index>(row)) = Eigen::Map<const Eigen::RowVector3d>(&numbers[row * columns]);
+  }
+  if (K(0, 2) == 0.0 && K(1, 2) == 0.0)
+  {
+    K.transposeInPlace();
+  }
+  if (K(0, 1) != 0.0 || K(1, 0) != 0.0 || K(2, 0) != 0.0 || K(2, 1) != 0.0 || K(2, 2) != 1.0)
+  {
+    failCamera(path, "has a camera matrix that is not fx 0 cx, 0 fy cy, 0 0 1");
+  }
+  return { K(0, 0), K(1, 1), K(0, 2), K(1, 2) };
+}
+
 std::optional<Intrinsics> intrinsicsOf(const std::string& path, const nlohmann::json& entries)
 {
-  auto m = find(path, entries, { "camera_matrix", "K", "cam_K", "mtx", "M1" }, 9, 9);
   if (!find(path, entries, { "M2" }, 0, 9).empty())
   {
     failCamera(path, "has 2 cameras, M1 and M2: leave the one that is meant");
   }
-  if (m.empty())
+  if (const auto matrix = find(path, entries, MatrixNames, 4, 16); !matrix.empty())
   {
-    m = find(path, entries, { "intrinsic_matrix" }, 9, 9); // Open3D's, column by column
-    m = m.empty() ? m : std::vector{ m[0], m[3], m[6], m[1], m[4], m[7], m[2], m[5], m[8] };
+    return intrinsicsOfMatrix(path, keyOf(entries, MatrixNames), matrix);
   }
-  if (!m.empty())
-  {
-    if (m[1] != 0.0 || m[3] != 0.0 || m[6] != 0.0 || m[7] != 0.0 || m[8] != 1.0)
-    {
-      failCamera(path, "has a camera matrix that is not fx 0 cx, 0 fy cy, 0 0 1");
-    }
-    return Intrinsics{ m[0], m[4], m[2], m[5] };
-  }
-  if (const auto row = find(path, entries, { "intrinsics" }, 4, 4); !row.empty()) // Kalibr's
-  {
-    return Intrinsics{ row[0], row[1], row[2], row[3] };
-  }
+  const auto focal = find(path, entries, { "focal_length", "f" }, 1, 2);
+  const auto centre = find(path, entries, { "principal_point", "c" }, 2, 2);
   Intrinsics result{};
-  const std::tuple<double*, const char*, const char*> values[] = { { &result.fx, "fx", "fx" },
-    { &result.fy, "fy", "fy" }, { &result.cx, "cx", "ppx" }, { &result.cy, "cy", "ppy" } }; // ppx: RealSense's
-  for (const auto& [value, name, other] : values)
+  const struct
+  {
+    double* value;
+    const char *name, *other; // ppx: RealSense's
+    std::optional<double> ofBoth;
+  } values[] = { { &result.fx, "fx", "fx", focal.empty() ? std::nullopt : std::optional(focal.front()) },
+    { &result.fy, "fy", "fy", focal.empty() ? std::nullopt : std::optional(focal.back()) },
+    { &result.cx, "cx", "ppx", centre.empty() ? std::nullopt : std::optional(centre.front()) },
+    { &result.cy, "cy", "ppy", centre.empty() ? std::nullopt : std::optional(centre.back()) } };
+  for (const auto& [value, name, other, ofBoth] : values)
   {
     const auto number = find(path, entries, { name, other }, 1, 1);
-    if (number.empty())
+    if (number.empty() && !ofBoth)
     {
       return std::nullopt;
     }
-    *value = number.front();
+    *value = number.empty() ? *ofBoth : number.front();
   }
   return result;
+}
+
+/// Width and height, 0 where they are not known.
+std::array<int, 2> sizeOf(const std::string& path, const nlohmann::json& entries, const Intrinsics& intrinsics)
+{
+  const std::string both = keyOf(entries, { "resolution", "camera_resolution", "image_size", "img_size" });
+  const bool isNested = !both.empty() && entries[both].is_object() && !entries[both].contains("data");
+  const nlohmann::json& owner = isNested ? entries[both] : entries;
+  if (both.empty() || isNested)
+  {
+    return { pixels(path, find(path, owner, { "image_width", "width", "resolution_width" }, 1, 1)),
+      pixels(path, find(path, owner, { "image_height", "height", "resolution_height" }, 1, 1)) };
+  }
+  const auto numbers = find(path, entries, { both.c_str() }, 2, 2);
+  const std::array<int, 2> size = { pixels(path, { numbers[0] }), pixels(path, { numbers[1] }) };
+  // MATLAB has the rows first: the principal point is about in the middle.
+  const auto offMiddle = [&](double width, double height)
+  { return std::abs(intrinsics.cx / width - 0.5) + std::abs(intrinsics.cy / height - 0.5); };
+  const bool isSwapped = offMiddle(size[1], size[0]) < offMiddle(size[0], size[1]);
+  return isSwapped ? std::array<int, 2>{ size[1], size[0] } : size;
 }
 
 /// Whether a bare name is one of the lens's distortion, its model's among them.
@@ -323,38 +384,96 @@ void requireWholeImage(const std::string& path, const nlohmann::json& entries)
   }
 }
 
-/// The one camera's entries, which Open3D and Kalibr have a level deeper, and those beside them.
-nlohmann::json entriesOfCamera(const std::string& path, nlohmann::json file)
+/// Whether an object has the intrinsics of a camera themselves, not in objects within.
+bool isOfCamera(const nlohmann::json& entries)
 {
-  std::string found;
-  int cameras = 0;
-  for (const auto& [name, entry] : file.items()) // of a list the names are numbers
+  if (!entries.is_object())
   {
-    if (entry.is_object() && (name == "intrinsic" || name == "intrinsics" || name.rfind("cam", 0) == 0) &&
-        (entry.contains("intrinsics") || entry.contains("intrinsic_matrix") || entry.contains("fx")))
+    return false;
+  }
+  const std::string matrix = keyOf(entries, MatrixNames);
+  const bool isMatrix = !matrix.empty() && (!entries[matrix].is_object() || entries[matrix].contains("data") ||
+                                             entries[matrix].contains("rows"));
+  const bool isPair = !keyOf(entries, { "focal_length", "f" }).empty() &&
+                      !keyOf(entries, { "principal_point", "c", "cx", "ppx" }).empty();
+  return isMatrix || isPair || !keyOf(entries, { "fx" }).empty();
+}
+
+using Ancestors = std::vector<const nlohmann::json*>;
+
+/// Each camera with what it stands in, the file first.
+void findCameras(const nlohmann::json& in, Ancestors& above, std::vector<Ancestors>& cameras)
+{
+  if (!in.is_structured())
+  {
+    return;
+  }
+  above.push_back(&in);
+  if (isOfCamera(in))
+  {
+    cameras.push_back(above);
+  }
+  else
+  {
+    for (const nlohmann::json& entry : in)
     {
-      found = name;
-      ++cameras;
+      findCameras(entry, above, cameras);
     }
   }
-  if (cameras > 1)
+  above.pop_back();
+}
+
+/// The one camera's entries, which many programs have a level deeper, and those beside them.
+nlohmann::json entriesOfCamera(const std::string& path, const nlohmann::json& file)
+{
+  Ancestors above;
+  std::vector<Ancestors> cameras;
+  findCameras(file, above, cameras);
+  if (cameras.size() > 1)
   {
-    failCamera(path, "has " + std::to_string(cameras) + " cameras: leave the one that is meant");
+    failCamera(path, "has " + std::to_string(cameras.size()) + " cameras: leave the one that is meant");
   }
-  if (cameras == 0)
+  nlohmann::json entries = nlohmann::json::object();
+  for (std::size_t i = cameras.empty() ? 0 : cameras.front().size(); i > 0; --i)
   {
-    return file;
-  }
-  nlohmann::json entries = std::move(file[found]);
-  file.erase(found);
-  for (auto& [name, entry] : file.items())
-  {
-    if (!entries.contains(name))
+    const nlohmann::json& from = *cameras.front()[i - 1];
+    for (const auto& [name, entry] : from.items()) // of a list the names are numbers
     {
-      entries[name] = std::move(entry);
+      if (!entries.contains(name) && (i == cameras.front().size() || &entry != cameras.front()[i]))
+      {
+        entries[name] = entry;
+      }
     }
   }
   return entries;
+}
+
+/// A text that is the numbers of a camera matrix and nothing else.
+nlohmann::json matrixAlone(std::string_view text)
+{
+  nlohmann::json numbers = nlohmann::json::array();
+  constexpr const char* separators = " \t\r\n,;[]";
+  while ((text.remove_prefix(std::min(text.find_first_not_of(separators), text.size())), !text.empty()))
+  {
+    const std::string_view word = text.substr(0, text.find_first_of(separators));
+    double value = 0.0;
+    if (!parseNumber(word, value) || !std::isfinite(value))
+    {
+      return nullptr;
+    }
+    numbers.push_back(value);
+    text.remove_prefix(word.size());
+  }
+  return numbers.empty() ? nlohmann::json() : nlohmann::json{ { "camera_matrix", numbers } };
+}
+
+/// Whether a text begins with a section of an INI file, as ROS's ost.txt does.
+bool isINI(const std::string& text)
+{
+  TextLines lines(text);
+  const std::string_view first = lines.next() ? bareText(lines.line()) : std::string_view();
+  return first.size() > 2 && first.front() == '[' && first.back() == ']' &&
+         std::isalpha(static_cast<unsigned char>(first[1]));
 }
 
 Camera cameraOf(const std::string& path, const nlohmann::json& entries)
@@ -371,12 +490,15 @@ Camera cameraOf(const std::string& path, const nlohmann::json& entries)
   camera.fy = intrinsics->fy;
   camera.cx = intrinsics->cx;
   camera.cy = intrinsics->cy;
-  camera.width = pixels(path, find(path, entries, { "image_width", "width" }, 1, 1));
-  camera.height = pixels(path, find(path, entries, { "image_height", "height" }, 1, 1));
-  if (const auto size = find(path, entries, { "resolution" }, 2, 2); !size.empty())
+  const std::array<int, 2> size = sizeOf(path, entries, *intrinsics);
+  camera.width = size[0];
+  camera.height = size[1];
+  const double width = std::max<double>(camera.width, 2.0 * camera.cx);
+  if (camera.fx > 0.0 && camera.fx < LeastFocalLength * width)
   {
-    camera.width = pixels(path, { size[0] });
-    camera.height = pixels(path, { size[1] });
+    char told[96];
+    std::snprintf(told, sizeof told, "%.4g, where the image is about %.0f wide", camera.fx, width);
+    failCamera(path, std::string("has the focal length ") + told + ": give it in pixels, not in mm");
   }
   camera.distortion = distortionOf(path, entries);
   camera.T_camera_scene = placeOf(path, entries);
@@ -386,12 +508,17 @@ Camera cameraOf(const std::string& path, const nlohmann::json& entries)
 
 CameraFile readCamera(const std::string& path)
 {
-  const std::string bytes = readFile(path);
+  const std::string bytes = readText(path);
   if (bytes.size() > MostBytes || bytes.find('\0') != std::string::npos)
   {
     failCamera(path, "is not a text of a camera's calibration");
   }
-  const nlohmann::json entries = entriesOfCamera(path, parseStorage(path, bytes));
+  if (isINI(bytes))
+  {
+    failCamera(path, "is an INI text, which is not read: give it as YAML, XML or JSON, of ROS ost.yaml");
+  }
+  const nlohmann::json matrix = matrixAlone(bareText(bytes));
+  const nlohmann::json entries = entriesOfCamera(path, matrix.is_null() ? parseStorage(path, bytes) : matrix);
   CameraFile result;
   result.camera = cameraOf(path, entries);
   try

@@ -18,7 +18,8 @@ struct CameraFile
 ///   for a camera beside the sensor, `T_camera_scene` (4x4) or `R` and `T` (as cv::stereoCalibrate names them; mm);
 /// - BOP and RealSense: `fx`, `fy`, `cx` or `ppx`, `cy` or `ppy`, or `cam_K`, `width`, `height`, `coeffs`;
 /// - Open3D: `intrinsic_matrix`, column by column;
-/// - Kalibr: `intrinsics` (fx fy cx cy), `distortion_coeffs`, `resolution`, of a single camera.
+/// - Kalibr: `intrinsics` (fx fy cx cy), `distortion_coeffs`, `resolution`;
+/// of a single camera, whatever they stand in, with entries beside them; or a camera matrix alone, as numbers.
 /// Of names case and underscores do not count. The distortion is k1 k2 p1 p2 k3, and k4 k5 k6 of the rational model, as
 /// a list or by these names; whatever is named like a distortion (`dist...`, `D1`, `k1`) is read or refused. A
 /// `distortion_model` or `model` that is another one is refused by its name, unless its coefficients are zeros, and a

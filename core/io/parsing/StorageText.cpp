@@ -18,6 +18,7 @@ namespace meam
 namespace
 {
 constexpr const char* Blanks = " \t\r\n";
+constexpr std::size_t MostElements = 64; // copies and comparisons call themselves for each
 constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
 
 [[noreturn]] void failStorage(const std::string& path, const std::string& what)
@@ -39,11 +40,13 @@ std::vector<double> numbersIn(std::string_view text)
   return numbers;
 }
 
-/// Elements <name>numbers</name> and <name><data>numbers</data></name> within the first one; of words alone their text.
-nlohmann::json numbersInXML(const std::string& path, const std::string& text)
+/// Of elements <name>words</name> within the first one numbers, or of words alone their text; of elements in elements
+/// objects.
+nlohmann::json valuesInXML(const std::string& path, const std::string& text)
 {
   nlohmann::json result = nlohmann::json::object();
   std::vector<std::string> open;
+  std::vector<nlohmann::json*> values; // of what is open: an object keeps its values where they are
   for (std::size_t at = 0; (at = text.find('<', at)) != std::string::npos;)
   {
     const bool comment = text.compare(at, 4, "<!--") == 0;
@@ -66,19 +69,34 @@ nlohmann::json numbersInXML(const std::string& path, const std::string& text)
         failStorage(path, "has a tag '" + tag.substr(0, 40) + "' in the wrong place: it is damaged");
       }
       open.pop_back();
+      values.pop_back();
       continue;
     }
-    open.push_back(tag.substr(0, tag.find_first_of(Blanks)));
-    if (open.size() == 2 || (open.size() == 3 && open.back() == "data"))
+    if (open.size() == MostElements)
     {
-      end = std::min(text.find('<', at), text.size());
-      const std::string words = text.substr(at, end - at);
-      const std::vector<double> numbers = numbersIn(words);
-      const bool isText = std::all_of(numbers.begin(), numbers.end(), [](double number) { return std::isnan(number); });
-      if (!numbers.empty())
-      {
-        result[open[1]] = isText ? nlohmann::json(words) : nlohmann::json(numbers);
-      }
+      failStorage(path, "has elements in elements " + std::to_string(MostElements) + " times over: it is damaged");
+    }
+    open.push_back(tag.substr(0, tag.find_first_of(Blanks)));
+    if (open.size() == 1)
+    {
+      values.push_back(&result);
+      continue;
+    }
+    if (!values.back()->is_object())
+    {
+      *values.back() = nlohmann::json::object();
+    }
+    nlohmann::json& value = (*values.back())[open.back()];
+    values.push_back(&value);
+    end = std::min(text.find('<', at), text.size());
+    const std::string words = text.substr(at, end - at);
+    const std::vector<double> numbers = numbersIn(words);
+    const bool isText = std::all_of(numbers.begin(), numbers.end(), [](double number) { return std::isnan(number); });
+    if (!numbers.empty())
+    {
+      value = isText                ? nlohmann::json(words)
+              : numbers.size() == 1 ? nlohmann::json(numbers.front())
+                                    : nlohmann::json(numbers);
     }
   }
   if (!open.empty())
@@ -96,7 +114,7 @@ nlohmann::json parseStorage(const std::string& path, const std::string& text)
   {
     failStorage(path, "is empty");
   }
-  return bare[0] == '<' ? numbersInXML(path, text) : bare[0] == '{' ? parseJSON(path, text) : parseYAML(path, text);
+  return bare[0] == '<' ? valuesInXML(path, text) : bare[0] == '{' ? parseJSON(path, text) : parseYAML(path, text);
 }
 
 std::vector<double> numbersOfMatrix(const nlohmann::json& value, const std::string& path, const std::string& what)

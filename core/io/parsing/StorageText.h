@@ -8,8 +8,8 @@
 
 namespace meam
 {
-/// What a text of OpenCV's FileStorage holds, in YAML, JSON or XML; of XML only the numbers of the first level, where a
-/// word that is no number becomes NaN, and texts without any. OpenCV's own reader ends the program on damaged files.
+/// What a text of OpenCV's FileStorage holds, in YAML, JSON or XML; of XML the elements without their attributes,
+/// where a word among numbers that is none becomes NaN. OpenCV's own reader ends the program on damaged files.
 /// Throws Error, naming the file `path` that the text is from, when it is none of them.
 nlohmann::json parseStorage(const std::string& path, const std::string& text);
 

@@ -157,6 +157,54 @@ TEST(CameraFile, otherPrograms)
   readCamera.fails(kalibr + replaced(kalibr, "cam0", "cam1"), "has 2 cameras");
 }
 
+TEST(CameraFile, intrinsicsAtAnyPlaceOfAFile)
+{
+  const auto isRead = [](const std::string& text)
+  {
+    const meam::Camera camera = readCamera(text).camera;
+    EXPECT_EQ((std::array<double, 4>{ camera.fx, camera.fy, camera.cx, camera.cy }),
+      (std::array<double, 4>{ 800, 801, 320, 240 }))
+      << text;
+    return camera;
+  };
+  const std::string matrix = "[[800, 0, 320], [0, 801, 240], [0, 0, 1]]";
+  const std::array<double, 8> lens{ 0.1, 0.2, 0.3, 0.4, 0.5 };
+  // Zivid's, Orbbec's, and of a list.
+  EXPECT_EQ(isRead("CameraIntrinsics:\n  CameraMatrix: {CX: 320, CY: 240, FX: 800, FY: 801}\n"
+                   "  Distortion: {K1: 0.1, K2: 0.2, K3: 0.5, P1: 0.3, P2: 0.4}\n")
+              .distortion,
+    lens);
+  EXPECT_EQ(isRead(R"({"depth_intrinsic": {"fx": 800, "fy": 801, "cx": 320, "cy": 240},
+    "depth_distortion": {"k1": 0.1, "k2": 0.2, "k3": 0.5, "p1": 0.3, "p2": 0.4}})")
+              .distortion,
+    lens);
+  EXPECT_EQ(isRead("[{\"K\": " + matrix + ", \"width\": 640}]").width, 640);
+  EXPECT_EQ(isRead("<s><CameraIntrinsics><CameraMatrix><FX>800</FX><FY>801</FY><CX>320</CX><CY>240</CY></CameraMatrix>"
+                   "</CameraIntrinsics><width>640</width></s>")
+              .width,
+    640);
+  readCamera.fails(R"({"depth": {"fx": 1, "fy": 1, "cx": 1, "cy": 1}, "color": {"fx": 1}})", "has 2 cameras");
+  // By rows or columns, with a column more, and of pairs.
+  isRead("intrinsic_matrix: " + matrix);
+  isRead("camera_matrix: [[800, 0, 0], [0, 801, 0], [320, 240, 1]]");
+  isRead("intrinsics: [[800, 0, 320, 0], [0, 801, 240, 0], [0, 0, 1, 0]]");
+  isRead("focal_length: [800, 801]\nprincipal_point: [320, 240]");
+  readCamera.fails("K: [1, 2, 3, 4, 5]", "5 numbers as K instead of 9");
+  // Numbers alone.
+  isRead("800 0 320\n0 801 240\n0 0 1\n");
+  isRead("800, 0, 320, 0\n0, 801, 240, 0\n0, 0, 1, 0\n0, 0, 0, 1\n");
+  isRead(matrix);
+  readCamera.fails("# oST version 5.0 parameters\n\n[image]\n\nwidth\n640\n", "INI");
+  // Sizes.
+  for (const std::string size : { "image_size: [640, 480]", "ImageSize: [480, 640]",
+         "resolution: {width: 640, height: 480}", "CameraResolution: {Width: 640, Height: 480}" })
+  {
+    const meam::Camera camera = isRead("K: " + matrix + "\n" + size);
+    EXPECT_EQ((std::array<int, 2>{ camera.width, camera.height }), (std::array<int, 2>{ 640, 480 })) << size;
+  }
+  readCamera.fails("fx: 4.8\nfy: 4.8\ncx: 320\ncy: 240", "focal length 4.8");
+}
+
 namespace
 {
 /// A camera of 640 x 480 pixels, in YAML, with these lines.
