@@ -371,6 +371,19 @@ bool isSwapped(const std::vector<float>& values)
   return hasLowerBytes && steps > FarNearer * stepsSwapped;
 }
 
+/// The largest value that a camera has whose values, in 16 bits, are of 8, 10, 12, 14 or 16 bits; labels are of 8.
+double mostOfDeep(const cv::Mat& pixels)
+{
+  double most = 0.0;
+  cv::minMaxLoc(pixels.reshape(1), nullptr, &most);
+  int bits = 8;
+  while (most >= std::exp2(bits))
+  {
+    bits += 2;
+  }
+  return std::exp2(bits) - 1.0;
+}
+
 /// The values of a depth image; those that stand for what was too far are none.
 DepthPixels decodeDepth(const std::string& path, std::string bytes)
 {
@@ -428,7 +441,7 @@ Image readImage(const std::string& path)
   cv::Mat pixels = decode(path, std::move(bytes), MostImageBits);
   if (pixels.depth() == CV_16U)
   {
-    pixels.convertTo(pixels, CV_8U, 1.0 / 257.0);
+    pixels.convertTo(pixels, CV_8U, 255.0 / mostOfDeep(pixels));
   }
   if (pixels.depth() != CV_8U || (pixels.channels() != 1 && pixels.channels() != 3 && pixels.channels() != 4))
   {

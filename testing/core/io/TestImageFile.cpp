@@ -92,6 +92,10 @@ TEST(ImageFile, sixteenBitsUseTheirWholeRange)
 {
   const cv::Mat deep = (cv::Mat_<std::uint16_t>(1, 3) << 0, 257 * 40, 65535);
   EXPECT_EQ(readImage(images::encoded(".png", deep)).pixels, (std::vector<std::uint8_t>{ 0, 40, 255 }));
+  const auto valuesOf = [](int a, int b)
+  { return readImage(images::encoded(".png", (cv::Mat_<std::uint16_t>(1, 2) << a, b))).pixels; };
+  EXPECT_EQ(valuesOf(1, 9), (std::vector<std::uint8_t>{ 1, 9 })) << "labels";
+  EXPECT_EQ(valuesOf(4095, 819), (std::vector<std::uint8_t>{ 255, 51 })) << "a camera of 12 bits";
   const files::Folder folder;
   const std::vector<float> depths = meam::readDepthPixels(folder.write("deep", images::encoded(".png", deep))).pixels;
   EXPECT_EQ(depths[1], 257 * 40);
