@@ -116,7 +116,11 @@ std::optional<Eigen::Isometry3d> transformIn(const std::string& path, const Nest
 {
   const auto apart = transformIn(path, numbers,
     { "translation.x", "translation.y", "translation.z", "rotation.x", "rotation.y", "rotation.z", "rotation.w" });
-  return apart ? apart : transformIn(path, numbers, { "x", "y", "z", "qx", "qy", "qz", "qw" });
+  const auto pose = apart ? apart
+                          : transformIn(path, numbers,
+                              { "position.x", "position.y", "position.z", "orientation.x", "orientation.y",
+                                "orientation.z", "orientation.w" });
+  return pose ? pose : transformIn(path, numbers, { "x", "y", "z", "qx", "qy", "qz", "qw" });
 }
 
 std::optional<Eigen::Isometry3d> frameIn(const std::string& path, const nlohmann::json& file)

@@ -216,7 +216,7 @@ std::vector<Eigen::Isometry3d> readMatrices(const std::string& path)
 {
   const std::string bytes = readFile(path);
   const std::string what = "The pose file '" + path + "' ";
-  constexpr const char* blanks = " \t\r\n,";
+  constexpr const char* blanks = " \t\r\n,;[]";
   std::vector<double> numbers;
   std::size_t at = bytes.find_first_not_of(blanks);
   while (at != std::string::npos)

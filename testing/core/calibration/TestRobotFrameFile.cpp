@@ -38,7 +38,9 @@ TEST(RobotFrameFile, everyForm)
                   "    rotation:\n      x: 0.0\n      y: 0.0\n      z: 0.70710678\n      w: 0.70710678\n---\n"),
       std::string("parameters:\n  eye_on_hand: false\ntransformation: # of easy_handeye\n  x: 0.1\n  y: 0.2\n  z: 0.3\n"
                   "  qx: 0.0\n  qy: 0.0\n  qz: 0.70710678\n  qw: 0.70710678\n"),
-      Rows })
+      std::string("pose:\n  position: {x: 0.1, y: 0.2, z: 0.3}\n  orientation: {x: 0, y: 0, z: 0.70710678, w: "
+                  "0.70710678}\n"),
+      Rows, std::string("[[0 -1 0 100]\n [1 0 0 200]\n [0 0 1 300]\n [0 0 0 1]]") })
   {
     EXPECT_TRUE(readRobotFrame(text).isApprox(quarterTurn(), 1e-7)) << text << "\n" << readRobotFrame(text).matrix();
   }
