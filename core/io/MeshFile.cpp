@@ -198,8 +198,11 @@ TriangleMesh readSTL(const std::string& path, const Progress& progress)
 {
   const std::string bytes = readFile(path);
   // Some programs begin binary files with the word, too.
-  const std::string_view text = bareText(bytes);
-  const bool isText = lowered(text.substr(0, 5)) == "solid" && text.find('\0') == std::string_view::npos;
+  std::string_view text = bareText(bytes);
+  text.remove_suffix(text.size() - (text.find_last_not_of('\0') + 1)); // what fills a block of a disk
+  TextLines lines(text);
+  const bool isText =
+    text.find('\0') == std::string_view::npos && lines.next() && lowered(lines.word().substr(0, 5)) == "solid";
   return isText ? readTextSTL(path, text, progress) : readBinarySTL(path, bytes, progress);
 }
 

@@ -484,7 +484,9 @@ MeasuredCloud readPCD(const std::string& path, const Progress& progress)
   result.cloud.points = take("x", "y", "z");
   if (result.cloud.points.empty())
   {
-    failPCD(path, "has no fields x, y and z");
+    failPCD(path, header.height > 1 && (find("rgb").field || find("rgba").field || find("intensity").field)
+                    ? "has no fields x, y and z: it is an image; save it as PNG and give it beside the scan (image)"
+                    : "has no fields x, y and z");
   }
   result.normals = take("normal_x", "normal_y", "normal_z");
   FieldData intensity;

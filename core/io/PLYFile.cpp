@@ -6,6 +6,7 @@
 #include "mesh/PolygonTriangulation.h"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstring>
@@ -98,6 +99,8 @@ Property propertyOf(const std::string& path, std::istringstream& words)
   }
   property.type = typeOf(path, type);
   words >> property.name;
+  std::transform(property.name.begin(), property.name.end(), property.name.begin(),
+    [](unsigned char letter) { return std::tolower(letter); }); // Red and X are about, too
   return property;
 }
 
@@ -392,7 +395,7 @@ struct Layout
     , normal{ find(vertex, { "nx" }), find(vertex, { "ny" }), find(vertex, { "nz" }) }
     , color{ find(vertex, { "red", "r", "diffuse_red" }), find(vertex, { "green", "g", "diffuse_green" }),
       find(vertex, { "blue", "b", "diffuse_blue" }) }
-    , intensity(find(vertex, { "intensity", "Intensity", "gray", "grey", "i", "scalar_intensity", "scalar_Intensity" }))
+    , intensity(find(vertex, { "intensity", "gray", "grey", "i", "scalar_intensity" }))
   {
     const Type type = this->color[0] < 0 ? Type::UInt8 : vertex.properties[this->color[0]].type;
     this->isColorReal = type == Type::Float || type == Type::Double;

@@ -261,8 +261,9 @@ TEST(MeshFile, TextSTLInAllFormsThatAreAbout)
   std::string upper = text, returns = replaced("\n", "\r");
   std::transform(upper.begin(), upper.end(), upper.begin(), [](unsigned char letter) { return std::toupper(letter); });
   for (const std::string& form : { upper, replaced("solid", "Solid"), replaced("endsolid", "end solid"), returns,
-         "\xef\xbb\xbf" + text, text + "\x1a", "\r\n " + text, text + "made by hand\n", replaced("\nouter", " outer"),
-         replaced("\nvertex", " vertex"), replaced("endloop\nendfacet\n", "end loop end facet ") })
+         "\xef\xbb\xbf" + text, text + "\x1a", "\r\n " + text, text + "made by hand\n", "# made by hand\n" + text,
+         text + std::string(100, '\0'), replaced("\nouter", " outer"), replaced("\nvertex", " vertex"),
+         replaced("endloop\nendfacet\n", "end loop end facet ") })
   {
     EXPECT_EQ(corners(read("a.stl", form)), corners(part)) << form.substr(0, 20);
   }

@@ -170,6 +170,8 @@ TEST(PCDFile, badFiles)
   readPCD.fails(xyz + "WIDTH 2\nHEIGHT 1\nPOINTS 2\nDATA binary\n" + std::string(23, '\0'), "cut off");
   readPCD.fails(
     "FIELDS x y\nSIZE 4 4\nTYPE F F\nCOUNT 1 1\nWIDTH 1\nHEIGHT 1\nPOINTS 1\nDATA ascii\n1 2\n", "x, y and z");
+  readPCD.fails(
+    "FIELDS rgb\nSIZE 4\nTYPE U\nCOUNT 1\nWIDTH 1\nHEIGHT 2\nPOINTS 2\nDATA ascii\n1\n2\n", "it is an image");
   readPCD.fails("FIELDS x y z\nSIZE 4 4\nWIDTH 1\nHEIGHT 1\nPOINTS 1\nDATA ascii\n1 2 3\n", "SIZE");
   readPCD.fails("FIELDS x y z\nSIZE 4 4 3\nWIDTH 1\nHEIGHT 1\nPOINTS 1\nDATA ascii\n1 2 3\n", "SIZE");
 }

@@ -85,6 +85,13 @@ TEST(PLYFile, coloursOfAnyRange)
   const meam::MeasuredCloud grey =
     readPLY(head("ascii", "element vertex 1\n" + floats + "property float i\n") + "1 2 3 40");
   EXPECT_EQ(grey.intensities, (std::vector<float>{ 40 }));
+  const meam::MeasuredCloud upper =
+    readPLY(head("ascii", "element vertex 1\nproperty float X\nproperty float Y\nproperty "
+                          "float Z\nproperty uchar Red\nproperty uchar Green\nproperty "
+                          "uchar Blue\n") +
+            "1 2 3 4 5 6");
+  EXPECT_EQ(upper.cloud.points[0], Eigen::Vector3f(1, 2, 3));
+  EXPECT_EQ(upper.colors, (std::vector<std::uint8_t>{ 4, 5, 6 }));
 }
 
 TEST(PLYFile, linesOfAnyEnd)
