@@ -10,6 +10,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <numeric>
 
 namespace meam
 {
@@ -357,11 +358,22 @@ std::vector<std::string> reasonsOf(const Diagnosis& diagnosis)
     add("Against it: " + listed(false) +
         (before < 0.0 ? ", and that little is right of what is anywhere (" + decimal(before) + ")." : "."));
     const PlaceOdds& odds = diagnosis.odds;
+    const double together = std::accumulate(odds.terms.begin(), odds.terms.end(), before,
+      [](double sum, const EvidenceTerm& term) { return sum + term.adds; });
+    const double counted = (odds.sum() - odds.shareOfSearch * odds.searched) / (1.0 - odds.shareOfSearch);
+    if (together - counted >= LeastTold)
+    {
+      add("Together that makes " + decimal(together) + ", which counts by its logarithm (" + decimal(counted) + ").");
+    }
     if (odds.shareOfSearch >= LeastShare)
     {
       add("This scan shows few of a part's edges. So these count by " + percent(1.0 - odds.shareOfSearch) +
           ", and by " + percent(odds.shareOfSearch) +
-          " what it was searched for by, which counts each point by itself (" + decimal(odds.searched) + ").");
+          " what it was searched for by, which counts each point by itself (" +
+          decimal(odds.searched + diagnosis.penalty) +
+          (diagnosis.penalty > 0.0 ? "; " + decimal(-diagnosis.penalty) + ", for it was moved to where that is most"
+                                   : "") +
+          ").");
     }
   }
   const std::string words = diagnosis.found ? contradictionWords(diagnosis.found->contradictions) : "";
@@ -370,12 +382,13 @@ std::vector<std::string> reasonsOf(const Diagnosis& diagnosis)
     add("Against it, too: measured surface goes on beside it over " + decimal(diagnosis.continuing) +
         " patches, which it leaves unexplained.");
   }
-  if (isDoubted(diagnosis))
+  if (diagnosis.lessByOthers >= LeastTold)
   {
     add("With all that the scan holds it is less likely, by " + decimal(diagnosis.lessByOthers) +
-        (!mayBeOther(diagnosis) ? ": its body cuts into that of rank " + std::to_string(diagnosis.cutsInto) + "."
-          : words.empty()       ? ": the part, or one of just this shape, may not be in it."
-                                : ": it may be another part that looks alike, for " + words + "."));
+        (!isDoubted(diagnosis)     ? "."
+          : !mayBeOther(diagnosis) ? ": its body cuts into that of rank " + std::to_string(diagnosis.cutsInto) + "."
+          : words.empty()          ? ": the part, or one of just this shape, may not be in it."
+                                   : ": it may be another part that looks alike, for " + words + "."));
   }
   if (std::abs(diagnosis.moreByCalibration) >= LeastTold)
   {

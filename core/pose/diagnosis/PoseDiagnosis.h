@@ -67,6 +67,7 @@ struct Diagnosis
   std::optional<Pose> found;      ///< what came out here, or would without limits, local frame
   bool isOfFound = false;         ///< it is asked about a pose that came out, right or wrong
   PlaceOdds odds;                 ///< what speaks for it and against it; nothing with the paper's verification
+  double penalty = 0.0;           ///< log odds that it was searched for by lack, for a pattern search moved it there
   double moreByCalibration = 0.0; ///< log odds by what the model's calibration has taught
   double lessByOthers = 0.0;      ///< log odds that what came out has less than by these terms, for the set it is in
   int cutsInto = 0;               ///< rank without limits of the likeliest pose whose body its own cuts into; 0: none
@@ -124,6 +125,8 @@ private:
   LossCause causeInScreening(Diagnosis& diagnosis, const Eigen::Isometry3d& T_local_model) const;
   /// Sets what speaks for it and against it, and which other pose is near.
   void explain(Diagnosis& diagnosis, const Eigen::Isometry3d& T_local_model);
+  /// Log odds that the pattern search that moved a pose to where it is took off; 0: none did.
+  double penaltyOf(const Pose& found, const EvidenceCollector& collector) const;
   /// Found as this pose without limits.
   LossCause notWanted(Diagnosis& diagnosis, int rank, const Eigen::Isometry3d& T_local_model);
   /// As the refined poses were verified.

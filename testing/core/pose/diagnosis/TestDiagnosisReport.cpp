@@ -135,6 +135,7 @@ TEST(DiagnosisReport, WhatSpeaksForAPoseAndAgainstItIsTold)
     "(+2.0).",
     "Against it: surface that the sensor saw past, 0.5 patches (-4.0), and that little is right of what is "
     "anywhere (-6.3).",
+    "Together that makes 1.7, which counts by its logarithm (1.4).",
     "With all that the scan holds it is less likely, by 4.2: its body cuts into that of rank 5.",
     "Its rotation is 70 % sure; turned by 180.0 degrees it is 25 %.",
     "The nearest other pose is rank 9, 12 %, 14.0 mm and 90.0 degrees off."
@@ -143,22 +144,25 @@ TEST(DiagnosisReport, WhatSpeaksForAPoseAndAgainstItIsTold)
   diagnosis.odds.searched = 2.34;
   diagnosis.odds.shareOfSearch = 0.4;
   EXPECT_EQ(meam::reasonsOf(diagnosis)[1], sentences[1]);
-  EXPECT_EQ(meam::reasonsOf(diagnosis)[2],
-    "This scan shows few of a part's edges. So these count by 60 %, and by 40 % what it was searched for by, which "
-    "counts each point by itself (2.3).");
+  const std::string bySearch = "This scan shows few of a part's edges. So these count by 60 %, and by 40 % what it was "
+                               "searched for by, which counts each point by itself (2.3";
+  EXPECT_EQ(meam::reasonsOf(diagnosis)[3], bySearch + ").");
+  diagnosis.penalty = 1.0;
+  diagnosis.odds.searched -= diagnosis.penalty;
+  EXPECT_EQ(meam::reasonsOf(diagnosis)[3], bySearch + "; -1.0, for it was moved to where that is most).");
   diagnosis.odds.shareOfSearch = 0.0;
   const meam::DetectionSettings detection = meam::detectionSettings(meam::Preset::Recommended);
   diagnosis.cutsInto = 0;
-  EXPECT_EQ(meam::reasonsOf(diagnosis)[2],
+  EXPECT_EQ(meam::reasonsOf(diagnosis)[3],
     "With all that the scan holds it is less likely, by 4.2: it may be another part that looks alike, for surface goes "
     "on beside it over 0.5 patches, and surface lies off the part by 3.0 times what the scan explains.");
   EXPECT_EQ(meam::adviceOf(diagnosis, detection),
     "If it is wrong: where parts that look alike lie, search for all of them together.");
   diagnosis.lessByOthers = 0.0; // what the scan explains by its own unevenness counts for no other part
-  EXPECT_EQ(meam::reasonsOf(diagnosis).size(), 4u);
+  EXPECT_EQ(meam::reasonsOf(diagnosis).size(), 5u);
   EXPECT_NE(meam::adviceOf(diagnosis, detection).find("RotationCounts"), std::string::npos);
   diagnosis.continuing = 0.5;
-  EXPECT_EQ(meam::reasonsOf(diagnosis)[2],
+  EXPECT_EQ(meam::reasonsOf(diagnosis)[3],
     "Against it, too: measured surface goes on beside it over 0.5 patches, which it leaves unexplained.");
   // What to change where a pose that came out is wrong; of a place that was given nothing.
   diagnosis.found->certainty = 1.0;

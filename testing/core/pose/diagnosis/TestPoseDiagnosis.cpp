@@ -5,6 +5,7 @@
 #include "TestSteps.h"
 #include "base/Bounds.h"
 #include "base/sequences/Sequences.h"
+#include "pose/verification/PoseVerification.h"
 
 using meam::LossCause;
 using meam::PoseStage;
@@ -301,6 +302,44 @@ TEST(PoseDiagnosis, OfAPoseThatCameOutItIsToldWhyThatDid)
   const Eigen::Vector3d shared = Here * scenes::bracket().surface.points.front().cast<double>();
   wrong.T_scene_model = Eigen::Translation3d(0.1, 0, 0) * Here;
   EXPECT_GT(diagnosis.atPoint(shared, {}, { wrong }, { 4 }).probability, 0.5);
+}
+
+TEST(PoseDiagnosis, WhatIsToldAddsUpToTheEvidence)
+{
+  // Bars that are shorter than their CAD file's, so that poses are moved (PatternSearch), with few edges, so that it
+  // counts.
+  const auto bar = [](float length) {
+    return parts::box({ -0.5f * length, -10.0f, 0.0f }, { 0.5f * length, 10.0f, 12.0f });
+  };
+  const meam::TrainedModel model = meam::trainModel(bar(66), meam::trainingSettings(meam::Preset::Recommended));
+  const Eigen::Isometry3d table = Eigen::Isometry3d::Identity();
+  std::vector<scenes::Copy> copies{ { parts::box({ -150.0f, -150.0f, -10.0f }, { 150.0f, 150.0f, 0.0f }), table } };
+  for (const double place : { -60.0, 0.0, 60.0 })
+  {
+    const Eigen::AngleAxisd turn(place / 60.0, Eigen::Vector3d::UnitZ());
+    copies.push_back({ bar(50), Eigen::Translation3d(place / 3.0, place, 0.0) * Eigen::Isometry3d(turn) });
+  }
+  scenes::Seen seen = scenes::withTangents(scenes::seenFromAbove(copies), model.diameter);
+  int next = 0;
+  removeEdges(seen, [&](const Eigen::Vector3f&) { return ++next % 3 != 0; });
+  meam::DetectionSettings detection = recommended();
+  meam::PoseSelectionSettings& selection = detection.selection; // nothing of what lies beside a pose counts
+  selection.excludesOverlaps = selection.weighsLookalikes = selection.weighsDifferences = false;
+  selection.weighsSize = selection.weighsMirrorImage = false;
+  const meam::Scene scene = scenes::prepared(seen, model.diameter);
+  meam::PoseDiagnosis diagnosis(scene, model, detection);
+  const meam::Poses found = meam::toSceneFrame(diagnosis.trace().unlimited(), scene.T_local_scene(), model.symmetries);
+  int moved = 0;
+  for (std::size_t k = 0; k < found.size() && found[k].placeProbability >= 1e-3; ++k) // others are not finished
+  {
+    const meam::Diagnosis of = diagnosis.ofFound(found[k], static_cast<int>(k) + 1);
+    meam::Pose told = found[k];
+    meam::setEvidence(told, of.odds.sum());
+    EXPECT_NEAR(told.evidence, found[k].evidence, 0.01) << k; // at the pose that a symmetry makes equal
+    EXPECT_NEAR(of.lessByOthers, 0.0, 0.01);
+    moved += of.penalty > 0.0 ? 1 : 0;
+  }
+  EXPECT_EQ(moved, 3);
 }
 
 TEST(PoseDiagnosis, ThePaperPresetIsToldOfToo)
