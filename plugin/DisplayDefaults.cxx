@@ -4,7 +4,9 @@
 #include "Legends.h"
 #include "RankColors.h"
 #include "ShownData.h"
+#include "TypeNames.h"
 
+#include "vtkCallbackCommand.h"
 #include "vtkCommand.h"
 #include "vtkDataObject.h"
 #include "vtkNew.h"
@@ -15,6 +17,7 @@
 #include "vtkSMParaViewPipelineControllerWithRendering.h"
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMPropertyIterator.h"
+#include "vtkSMProxyIterator.h"
 #include "vtkSMProxyManager.h"
 #include "vtkSMRenderViewProxy.h"
 #include "vtkSMSessionProxyManager.h"
@@ -178,7 +181,7 @@ void showAnswer(vtkSMRenderViewProxy* view, const ShownData& shown)
 }
 
 /// Hides the parts that were searched, which lie where the sensor is, when their poses are shown.
-void hidePart(vtkSMRenderViewProxy* view, vtkSMSourceProxy* source)
+void hideParts(vtkSMRenderViewProxy* view, vtkSMSourceProxy* source)
 {
   for (const char* name : { "Input", "Mesh" })
   {
@@ -254,6 +257,7 @@ class DisplayDefaults
 public:
   void listen()
   {
+    this->OfTypes->SetCallback(onUpdated);
     vtkSMProxyManager* proxies = vtkSMProxyManager::GetProxyManager();
     proxies->AddObserver(vtkCommand::RegisterEvent, this, &DisplayDefaults::onRegistered);
   }
@@ -314,12 +318,17 @@ private:
       showText(representation);
       return;
     }
+    if (shown.port == 0 && !shown.source->HasObserver(vtkCommand::UpdateDataEvent, this->OfTypes))
+    {
+      shown.source->AddObserver(vtkCommand::UpdateDataEvent, this->OfTypes);
+      nameTypes(shown.source);
+    }
     showInFront(representation, shown);
     showAnswer(view, shown);
     showScan(representation, shown);
     if (isInScene(shown.data()))
     {
-      hidePart(view, shown.source);
+      hideParts(view, shown.source);
       hideInputs(view, shown.source);
       hidePoses(view, shown);
       if (!view->HasAnnotation(Placed) && comesFromScan(shown.source, shown.port))
@@ -340,12 +349,29 @@ private:
     }
   }
 
+  static void onUpdated(vtkObject* caller, unsigned long, void*, void*) { nameTypes(vtkSMSourceProxy::SafeDownCast(caller)); }
+
   std::vector<vtkWeakPointer<vtkSMProxy>> Seen;
+  vtkNew<vtkCallbackCommand> OfTypes;
   Legends InViews;
 };
 }
 
 bool isSeenFromSensor(vtkSMProxy* view) { return view->HasAnnotation(SeenFromSensor); }
+
+void hideParts(vtkSMSourceProxy* source)
+{
+  vtkNew<vtkSMProxyIterator> views;
+  views->SetSession(source->GetSession());
+  for (views->Begin("views"); !views->IsAtEnd(); views->Next())
+  {
+    auto* view = vtkSMRenderViewProxy::SafeDownCast(views->GetProxy());
+    if (view && isSeenFromSensor(view))
+    {
+      hideParts(view, source);
+    }
+  }
+}
 
 void setMEAMDisplayDefaults()
 {

@@ -206,7 +206,7 @@ double largestDiameter(const std::vector<const TrainedModel*>& models)
   return largest;
 }
 
-std::string untoldLengths(const std::vector<PartPose>& poses, std::string told)
+std::string untoldLengths(const std::vector<PartPose>& poses, std::string told, const std::vector<std::string>& names)
 {
   std::map<int, Eigen::Vector3d> lengths;
   for (const PartPose& one : poses)
@@ -215,8 +215,8 @@ std::string untoldLengths(const std::vector<PartPose>& poses, std::string told)
   }
   for (const auto& [part, factors] : lengths)
   {
-    appendSentence(told, lengths.size() > 1 ? untoldWords(factors, "the copies of part " + std::to_string(part + 1))
-                                            : untoldWords(factors));
+    const std::string name = names.empty() ? "part " + std::to_string(part + 1) : names.at(part);
+    appendSentence(told, lengths.size() > 1 ? untoldWords(factors, "the copies of " + name) : untoldWords(factors));
   }
   return told;
 }

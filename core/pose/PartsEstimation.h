@@ -20,8 +20,10 @@ RankedPoses posesOfPart(const std::vector<PartPose>& poses, int part);
 /// mm, of the largest type.
 double largestDiameter(const std::vector<const TrainedModel*>& models);
 
-/// What poses leave open of how long their parts are, in a sentence for each type after what is told of them.
-std::string untoldLengths(const std::vector<PartPose>& poses, std::string told = {});
+/// What poses leave open of how long their parts are, in a sentence for each type after what is told of them. `names`:
+/// of the types; where there are none these are part 1 and so on.
+std::string untoldLengths(
+  const std::vector<PartPose>& poses, std::string told = {}, const std::vector<std::string>& names = {});
 
 /// The online phase for several types of part in one scan: of poses that claim the same surface the best supported
 /// stays (resolveConflicts). Ranked poses, in the scene's own coordinates (mm), with the type of each. Of one type it

@@ -5,6 +5,7 @@
 #include "vtkMEAMArrays.h"
 #include "vtkMEAMCloudConversion.h"
 #include "vtkMEAMEstimationWork.h"
+#include "vtkMEAMPartNames.h"
 #include "vtkMEAMPartTrainer.h"
 #include "vtkMEAMRun.h"
 #include "vtkMEAMScanConversion.h"
@@ -21,7 +22,6 @@
 #include "vtkInformationVector.h"
 #include "vtkPartitionedDataSetCollection.h"
 #include "vtkPolyData.h"
-#include "vtkStringArray.h"
 #include "vtkStructuredGrid.h"
 #include "vtkTimerLog.h"
 
@@ -51,13 +51,6 @@ meam::Region regionOf(const double ends[6], vtkPointSet* scan)
     }
   }
   return region;
-}
-
-/// What the part that comes in is called: by its file, or by its place among several.
-std::string nameOf(vtkDataObject* part, int index)
-{
-  auto* name = vtkStringArray::SafeDownCast(part->GetFieldData()->GetAbstractArray("Name"));
-  return name && name->GetNumberOfValues() > 0 ? std::string(name->GetValue(0)) : "part " + std::to_string(index + 1);
 }
 }
 
@@ -236,7 +229,7 @@ vtkMEAMEstimationAlgorithm::Work vtkMEAMEstimationAlgorithm::Prepare(vtkInformat
   work.settings.region = work.scan.region;
   for (int k = 0; k < inputVector[0]->GetNumberOfInformationObjects(); ++k)
   {
-    work.names.push_back(nameOf(vtkDataObject::GetData(inputVector[0], k), k));
+    work.names.push_back(partNameOf(this, k));
   }
   return work;
 }

@@ -203,7 +203,7 @@ int vtkMEAMPoseEstimation::RequestData(
         output->GetPointData()->SetActiveScalars("PartId"); // as the parts that are drawn
         output->GetFieldData()->AddArray(arrayOf<vtkStringArray>("PartName", work.names));
       }
-      setFieldText(output, "Report", meam::untoldLengths(partPoses, meam::describe(poses)));
+      setFieldText(output, "Report", meam::untoldLengths(partPoses, meam::describe(poses), work.names));
       setScanQuality(output, scene.quality, work.scan.report);
       setFieldValue(output, "IsCutShort", report.isCutShort ? 1.0 : 0.0);
       if (report.rates)

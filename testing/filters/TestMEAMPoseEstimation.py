@@ -5,6 +5,7 @@ import math
 
 from vtkmodules.vtkCommonCore import vtkStringArray, vtkUnsignedCharArray
 from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkStructuredGrid
+from vtkmodules.vtkIOGeometry import vtkSTLReader, vtkSTLWriter
 
 from ppfmeam import filters
 from meamtest import (Errors, Folder, Trained, Warnings, bracket, check, cloud, collection, connect, distance, fails, field,
@@ -203,6 +204,9 @@ fails(estimation(model, scan, Region=(0, 1, 0, 1, -5, -4)), "region")
 
 # Two types of part, of which one is there: names and numbers tell them apart.
 both = estimation(bracket(), scan, MaximumNumberOfPoses=2)
+flap = vtkSTLReader()
+flap.SetFileName(written(folder("flap.stl"), bracket(), vtkSTLWriter))
+both.SetInputConnection(0, flap.GetOutputPort())
 named = vtkPolyData()
 named.ShallowCopy(part)
 name = vtkStringArray()
@@ -217,7 +221,7 @@ labels = together.GetPointData().GetAbstractArray("Label")
 check(labels.GetValue(0).startswith("1 (plate): "), labels.GetValue(0))
 check(together.GetPointData().GetScalars().GetName() == "PartId", "the legend beside the labels is that of the types")
 names = together.GetFieldData().GetAbstractArray("PartName")
-check([names.GetValue(k) for k in range(2)] == ["part 1", "plate"] and len(field(together, "Diameter")) == 2, "names and diameters")
+check([names.GetValue(k) for k in range(2)] == ["flap", "plate"] and len(field(together, "Diameter")) == 2, "names and diameters")
 copies = both.GetOutputDataObject(2)
 check(set(tuples(copies, "PartId")) == {(1,)} and set(tuples(copies, "Rank")) == {(1,), (2,)}, "their copies")
 both.RemoveInputConnection(0, 0)

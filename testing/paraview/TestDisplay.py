@@ -200,3 +200,24 @@ simple.ResetCamera(view)
 picture = drawn(view)
 for name, color in (("green", RANKS["green"]), ("yellow", RANKS["yellow"]), ("violet", (150, 60, 190)), ("red", RANKS["red"])):
     check(share(picture, color) > 0.0001, f"no {name} point: {share(picture, color)}")
+
+# Types of part are called by their files; the legend lists those that there are.
+view = simple.CreateRenderView()
+parts = []
+for kind in ("Hole plate", "Flap", "Knob"):
+    path = os.path.join(folder.name, f"{kind.lower()}.stl")
+    part = simple.SamplePartSource(Part=kind)
+    simple.SaveData(path, part)
+    parts.append(simple.STLReader(FileNames=[path]))
+bin = simple.BinSceneOfPart(Input=parts[0], Copies=2, Width=320, Height=240)
+types = simple.MEAMPoseEstimation(Input=parts[:2], Scene=simple.OutputPort(bin, 0), MaximumNumberOfPoses=1)
+simple.Show(simple.OutputPort(types, 2), view)
+simple.Show(simple.OutputPort(types, 0), view)
+simple.Render(view)
+data = types.GetClientSideObject().GetOutputDataObject(0)
+check(data.GetPointData().GetAbstractArray("Label").GetValue(0).startswith("1 (hole plate)"), "the label names the file")
+table = simple.GetColorTransferFunction("PartId")
+check(list(table.Annotations) == ["0", "hole plate", "1", "flap"], f"the legend has {table.Annotations}")
+types.Input = parts[1:]
+simple.Render(view)
+check(list(table.Annotations) == ["0", "flap", "1", "knob"], f"the legend of other types has {table.Annotations}")

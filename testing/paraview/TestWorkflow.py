@@ -114,7 +114,7 @@ def look(folder):
     verdict, advice = (said.GetAbstractArray(name).GetValue(0) for name in ("Verdict", "Advice"))
     check(not verdict.startswith(("Found", "No part")) and advice, f"{verdict} {advice}")
     names = output("MEAMPoseEstimation1", "types.pvsm").GetFieldData().GetAbstractArray("PartName")
-    check([names.GetValue(k) for k in range(names.GetNumberOfValues())] == ["part", "part 2"], "the types that are looked for")
+    check([names.GetValue(k) for k in range(names.GetNumberOfValues())] == ["part", "knob"], "the types that are looked for")
     picks = output("PickPlanning1", "picks.pvsm").GetPointData().GetArray("Instance")
     with open(os.path.join(folder, "poses.json")) as file:
         poses = json.load(file)["poses"]

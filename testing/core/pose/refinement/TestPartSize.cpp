@@ -84,4 +84,7 @@ TEST(PartSize, LengthsThatAreNotToldAreNamedForEachTypeOfPart)
     "This scan does not tell how long the copies of part 1 are along z: a part that differs in that alone looks the "
     "same. This scan does not tell how long the copies of part 2 are along x: a part that differs in that alone looks "
     "the same.");
+  EXPECT_EQ(
+    meam::untoldLengths(found, {}, { "plate", "flap" }).find("This scan does not tell how long the copies of plate"),
+    0u);
 }
