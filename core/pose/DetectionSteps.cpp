@@ -111,8 +111,8 @@ std::string doubtsOf(const Poses& poses, const SceneInput& scene, double partDia
   {
     return doubts;
   }
-  std::string told = unitsWarning(hasEdges ? scene.edges.cloud.points : scene.measured, partDiameter,
-    doubts.empty() ? 0.0 : scene.quality.pointDistance);
+  std::string told = unitsWarning(
+    hasEdges ? scene.edges.cloud.points : scene.measured, partDiameter, scene.quality.pointDistance, doubts.empty());
   appendSentence(told, doubts);
   return told;
 }

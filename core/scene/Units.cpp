@@ -23,10 +23,11 @@ constexpr double MostLikely = 100.0;    // to here,
 constexpr double UsualExtent = 3.5;     // and the more so the nearer to this: 11 of 21 real scans span 3 to 4
 constexpr double LeastPossible = 0.2;   // less is an error,
 constexpr double MostPossible = 1000.0; // and so is more
-// When nothing sure was found. A part in a tenth of the scan's unit spans few of its points, one in ten times as many.
-constexpr double ManyParts = 20.0;   // diameters that the scene spans,
-constexpr double FewPoints = 30.0;   // and points that the part does: fewer hardly tell it
-constexpr double FewParts = 4.0;     // and the other way round
+// A part in a tenth of the scan's unit spans few of its points: of what is ten times as large an edge looks like one.
+constexpr double ManyParts = 20.0; // diameters that the scene spans,
+constexpr double FewPoints = 40.0; // and points that the part does: fewer hardly tell it
+// And the other way round, when nothing sure was found.
+constexpr double FewParts = 4.0;
 constexpr double ManyPoints = 500.0; // of a part that fills the picture, of a camera of a megapixel
 constexpr double OtherThings = 0.02; // of the points, at each end of each axis: they are left out when there is more
 
@@ -83,13 +84,14 @@ std::string cameraUnitDoubt(double distance)
            : std::string();
 }
 
-std::string unitsWarning(const Points& scene, double partDiameter, double pointDistance)
+std::string unitsWarning(const Points& scene, double partDiameter, double pointDistance, bool isSure)
 {
   const double parts = bounds(scene).diagonal().norm() / partDiameter;
   if (parts >= LeastUsual && parts <= MostUsual)
   {
     const double points = pointDistance > 0.0 ? partDiameter / pointDistance : 0.0;
-    const bool isLarge = parts > ManyParts && points < FewPoints, isSmall = parts < FewParts && points > ManyPoints;
+    const bool isLarge = parts > ManyParts && points < FewPoints;
+    const bool isSmall = !isSure && parts < FewParts && points > ManyPoints;
     return pointDistance > 0.0 && (isLarge || isSmall)
              ? "The scan spans " + number(parts) + " diameters of the part, and the part " + number(points) +
                  " of its points: if their units differ, " + likelyFactors(parts, isSmall) + ". Scale the " +

@@ -29,7 +29,7 @@ bool spansTooLittle(const Points& points, double partDiameter);
 
 /// What to tell a user when a scene's extent is possible but unlikely for a part in the same unit, as with centimetres:
 /// it names the likely factors, those of centimetres, inches and metres. Empty when there is nothing to tell.
-/// `pointDistance` of the scan, when nothing sure was found in it: then it tells, too, when both the extent and how
-/// many points the part spans are unusual; 0 otherwise.
-std::string unitsWarning(const Points& scene, double partDiameter, double pointDistance = 0.0);
+/// With the `pointDistance` of the scan, 0 where it is not known, it tells, too, when both the extent and how many
+/// points the part spans are unusual: few points always, many unless something sure was found.
+std::string unitsWarning(const Points& scene, double partDiameter, double pointDistance = 0.0, bool isSure = true);
 }

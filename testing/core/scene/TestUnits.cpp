@@ -42,11 +42,11 @@ TEST(Units, AnErrorNamesTheFactor)
   EXPECT_NE(says(0, 60.0).find("1000 (metres)"), std::string::npos);
 }
 
-TEST(Units, WhenNothingSureWasFoundAFactorOfTenIsSuspected)
+TEST(Units, AFactorOfTenIsSuspectedByTheExtentAndThePoints)
 {
   const auto spanning = [](float length) { return meam::Points{ { 0, 0, 0 }, { length, 0, 0 } }; };
-  const auto says = [&](float extent, double pointDistance)
-  { return meam::unitsWarning(spanning(extent), 100.0, pointDistance); };
+  const auto says = [&](float extent, double pointDistance, bool isSure = false)
+  { return meam::unitsWarning(spanning(extent), 100.0, pointDistance, isSure); };
   EXPECT_NE(
     says(3000, 6.0).find(
       "factor is 10 (centimetres). Scale the scene down by it (Scale of its reader), or the part up (CADScale)."),
@@ -55,7 +55,9 @@ TEST(Units, WhenNothingSureWasFoundAFactorOfTenIsSuspected)
     says(150, 0.1).find("factor is 10 (centimetres), or 25.4 (inches). Scale the scene up by it"), std::string::npos);
   EXPECT_EQ(says(3000, 0.6), ""); // small parts in a large bin, seen finely
   EXPECT_EQ(says(500, 6.0), "");  // seen coarsely
-  EXPECT_EQ(says(3000, 0.0), ""); // what is sure was found
+  EXPECT_NE(says(3000, 3.0, true), "") << "in what is ten times as large likely poses are found, too";
+  EXPECT_EQ(says(150, 0.1, true), "");
+  EXPECT_EQ(says(3000, 0.0), ""); // not known
 }
 
 TEST(Units, PointsOfNoPartSpanTooLittle)
