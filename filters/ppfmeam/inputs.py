@@ -83,8 +83,8 @@ def mesh_of(cad, reading):
     return _core.Mesh(vtk_to_numpy(mesh.GetPoints().GetData()), corners)
 
 
-def mesh_file(file, known=scripting.EXTENSIONS):
-    """The name of a file that is there, and of a kind that has a mesh."""
+def mesh_file(file, known):
+    """The name of a file that is there, and of a kind that has a mesh, or at least points."""
     path = os.fspath(file)
     scripting.require_kind(path, os.path.splitext(path)[1].lower() in known, known)
     return path_of(path)
@@ -151,7 +151,7 @@ def cloud_of(scan, camera, scale):
         return _core.load_depth_image(path, path_of(camera), scale)
     if extension in (".pcd", ".ply"):
         return _core.load_scan(path, "" if camera is None else path_of(camera), scale)
-    return _core.Scan(scaled(_core.load_cad(mesh_file(path)).vertices, scale, "scan"))
+    return _core.Scan(scaled(_core.load_cad(mesh_file(path, scripting.SCANS)).vertices, scale, "scan"))
 
 
 def depths_seen(depths, camera, scale):

@@ -27,6 +27,7 @@ from . import choices, filters
 
 EXTENSIONS = (".pcd", ".off", ".ply", ".stl", ".obj", ".step", ".stp", ".iges", ".igs")
 MESHES = EXTENSIONS[1:]
+SCANS = (".pcd", ".ply", ".stl", ".obj", ".off")
 MODELS = (".meam", ".vtpc")
 DEPTH_IMAGES = (".png", ".tif", ".tiff", ".pgm", ".pfm", ".exr")  # their reader says what to do with the last
 AS_GOOD = 0.02  # share of the surface that near-symmetries may differ by and count as equally near
@@ -418,6 +419,7 @@ def read_scan(path, scale=1.0, camera=None):
     if extension in DEPTH_IMAGES:
         raise Failure(f"{path} is an image: give a depth image with --depth and its --camera, and the scan's image with --image")
     if extension not in (".pcd", ".ply"):
+        require_kind(path, extension in SCANS, SCANS)
         return read(path, scale)
     if not 0 < scale < float("inf"):
         raise Failure(f"{path}: the scale has to be a positive number, not {scale}")

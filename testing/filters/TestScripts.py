@@ -198,6 +198,7 @@ for name in ("empty.stl", "empty.ply", "empty.obj", "junk.stl", "junk.ply", "jun
     refuses(name, "detect.py", "--cad", name, "--scene", "scan.pcd", *out)
 refuses("mesh with faces", "detect.py", "--cad", "points.ply", "--scene", "scan.pcd", *out)
 refuses("mesh with faces", "detect.py", "--cad", "scan.pcd", "--scene", "scan.pcd", *out)
+refuses("known are .pcd, .ply", "detect.py", "--cad", "part.stl", "--scene", "points.xyz", *out)
 refuses("it is a trained model, for the --model of commands that take one", "detect.py", "--cad", "model.vtpc", "--scene", "scan.pcd", *out)
 refuses("unknown kind of file; known are .off", "detect.py", "--cad", "image.png", "--scene", "scan.pcd", *out)
 refuses("is an image: give a depth image with --depth", "detect.py", "--cad", "part.stl", "--scene", "image.png", *out)
