@@ -217,6 +217,26 @@ vtkSmartPointer<vtkDataObject> drawnPartsOf(vtkSMProxy* diagnosis, vtkSMProxy* v
   return nullptr;
 }
 
+/// What the mouse points at: of the parts that are drawn, or else of the scan; false: nothing.
+bool findPlace(vtkSMProxy* diagnosis, vtkSMRenderViewProxy* view, double place[3])
+{
+  const int* mouse = view->GetInteractor()->GetEventPosition();
+  const auto drawn = drawnPartsOf(diagnosis, view);
+  auto* parts = vtkPolyData::SafeDownCast(drawn);
+  if (parts && meetsMesh(parts, view->GetRenderer(), mouse, place))
+  {
+    return true;
+  }
+  const auto data = dataOf(inputOf(diagnosis, "Scene"), vtkSMPropertyHelper(diagnosis, "Scene").GetOutputPort());
+  auto* scan = vtkPointSet::SafeDownCast(data);
+  const vtkIdType found = scan ? pointAt(scan, view->GetRenderer(), mouse) : -1;
+  if (found >= 0)
+  {
+    scan->GetPoint(found, place);
+  }
+  return found >= 0;
+}
+
 bool isDiagnosis(vtkSMProxy* proxy) { return std::strcmp(proxy->GetXMLName(), "PoseDiagnosis") == 0; }
 
 class ScanPicking : public QObject
@@ -273,22 +293,10 @@ private:
 
   static void pick(pqPropertyWidget* point, vtkSMRenderViewProxy* view)
   {
-    const int* mouse = view->GetInteractor()->GetEventPosition();
-    const auto drawn = drawnPartsOf(point->proxy(), view);
-    auto* parts = vtkPolyData::SafeDownCast(drawn);
     double place[3];
-    bool isFound = parts && meetsMesh(parts, view->GetRenderer(), mouse, place);
-    if (!isFound)
-    {
-      const auto data = dataOf(inputOf(point->proxy(), "Scene"), vtkSMPropertyHelper(point->proxy(), "Scene").GetOutputPort());
-      auto* scan = vtkPointSet::SafeDownCast(data);
-      const vtkIdType found = scan ? pointAt(scan, view->GetRenderer(), mouse) : -1;
-      isFound = found >= 0;
-      if (isFound)
-      {
-        scan->GetPoint(found, place);
-      }
-    }
+    QApplication::setOverrideCursor(Qt::WaitCursor); // a server may be far away
+    const bool isFound = findPlace(point->proxy(), view, place);
+    QApplication::restoreOverrideCursor();
     if (isFound)
     {
       QMetaObject::invokeMethod(
