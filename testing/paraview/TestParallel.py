@@ -32,12 +32,17 @@ def content(path):
 
 
 def is_saved():
-    """Whether poses, grasps and a trained model are in their files."""
+    """Whether poses, grasps, a trained model and the page of what was found are in their files."""
     with tempfile.TemporaryDirectory() as folder:
         for name, source in (("poses.json", found), ("part.grasps", grasps), ("part.meam", simple.TrainedModelReader(FileName=MODEL))):
             simple.SaveData(os.path.join(folder, name), simple.OutputPort(source, 0))
         counts = [len(json.loads(content(os.path.join(folder, name)))[key]) for name, key in (("poses.json", "poses"), ("part.grasps", "grasps"))]
         print("saved:", counts)
+        if os.path.exists("/usr/share/javascript/three"):
+            page = os.path.join(folder, "found.html")
+            simple.SaveData(page, simple.OutputPort(found, 0))
+            print("page:", os.path.getsize(page) if os.path.exists(page) else "none")
+            counts += [] if content(page).count(b"<tr data-rank") == 2 else ["no page"]
         return counts == [2, grasps.GetDataInformation(0).GetNumberOfPoints()] and counts[1] > 0 \
             and content(os.path.join(folder, "part.meam")) == content(MODEL)
 

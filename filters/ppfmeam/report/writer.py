@@ -5,6 +5,7 @@ import os
 import paraview.modules.vtkPVVTKExtensionsIOCore  # noqa: F401  wraps ParaView's reader of series, which knows its file
 from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase
 from vtkmodules.vtkCommonCore import vtkOutputWindow
+from vtkmodules.vtkParallelCore import vtkMultiProcessController
 
 from .. import inputs, scripting
 from . import page
@@ -26,7 +27,9 @@ class PageWriter(VTKPythonAlgorithmBase):
         return self.path
 
     def Write(self):
-        """What goes wrong is an error of ParaView's."""
+        """What goes wrong is an error of ParaView's. Of several processes the first one has all data."""
+        if vtkMultiProcessController.GetGlobalController().GetLocalProcessId() > 0:
+            return
         try:
             write(self, self.path)
         except scripting.Failure as failure:
