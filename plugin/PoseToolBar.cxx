@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PoseToolBar.h"
 
+#include "DisplayDefaults.h"
 #include "NewPart.h"
 #include "OpenData.h"
 #include "PartView.h"
 #include "ScanPicking.h"
 #include "ScoreCharts.h"
+#include "ShownData.h"
 #include "Tutorial.h"
 
 #include "pqActiveObjects.h"
@@ -15,10 +17,12 @@
 #include "pqOutputPort.h"
 #include "pqPipelineFilter.h"
 #include "pqPropertiesPanel.h"
+#include "pqServerManagerModel.h"
 #include "pqUndoStack.h"
 #include "vtkSMProperty.h"
 #include "vtkSMPropertyIterator.h"
 #include "vtkSMProxy.h"
+#include "vtkSMSourceProxy.h"
 #include "vtkSmartPointer.h"
 
 #include <QAction>
@@ -205,6 +209,15 @@ void build()
   addPartView();
   addScanPicking(window);
   qApp->installEventFilter(new InputNames(window));
+  // ParaView shows the inputs of a filter that is deleted.
+  QObject::connect(pqApplicationCore::instance()->getServerManagerModel(), &pqServerManagerModel::preSourceRemoved, window,
+    [](pqPipelineSource* source)
+    {
+      if (isOurs(source->getSourceProxy()))
+      {
+        hideParts(source->getSourceProxy());
+      }
+    });
 }
 }
 

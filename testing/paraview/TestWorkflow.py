@@ -11,6 +11,7 @@ import re
 import subprocess
 import sys
 import tempfile
+import xml.etree.ElementTree as ElementTree
 
 from clicks import (APPLY, BROWSER, NEW_PART, PANEL, PROPERTIES, START, check, event, files, item, new_part_choice, new_part_file,
                     new_part_length, play, share, shoot)
@@ -74,7 +75,7 @@ def stages(folder, repository, wrong, missed):
         *item(BROWSER, CAD), *item(BROWSER, OTHER_CAD, control=True), event("PoseEstimationToolbar/EstimatePoses", "activate"), APPLY,
         *files("actionFileSaveServerState", "FileSaveServerStateDialog", f"{folder}/types.pvsm")]
     yield "report", [
-        *delete(BOTH), *delete(OTHER_CAD),
+        *delete(BOTH), *files("actionFileSaveServerState", "FileSaveServerStateDialog", f"{folder}/deleted.pvsm"), *delete(OTHER_CAD),
         new_part_choice("Gripper", "Parallel jaws"), new_part_length("FingerWidth", 8), new_part_length("FingerThickness", 5), START,
         *item(BROWSER, NEW_POSES), *files("actionFileSaveData", "FileSaveDialog", f"{folder}/poses.json"),
         event("WriterSettingsDialog/widget/OKButton", "activate"),
@@ -93,6 +94,18 @@ def main(paraview, pvpython, repository):
                 shoot(paraview, folder, events, os.path.join(os.environ["PPFMEAM_PICTURE"], f"application_{name}.jpg"))
         play(paraview, folder, events)
         subprocess.run([pvpython, os.path.abspath(__file__), "--look", folder], check=True)
+
+
+def shown(path, name):
+    """Whether a source is to be seen in a view of a state."""
+    state = ElementTree.parse(path).getroot()
+    (number,) = {entry.get("id") for entry in state.iter("Item") if entry.get("name") == name}
+
+    def values(proxy, name):
+        return [value.get("value") for entry in proxy.findall("Property") if entry.get("name") == name for value in entry]
+
+    return any(values(proxy, "Visibility")[0] == "1" for proxy in state.iter("Proxy")
+               if proxy.get("group") == "representations" and number in values(proxy, "Input"))
 
 
 def look(folder):
@@ -115,6 +128,8 @@ def look(folder):
     check(not verdict.startswith(("Found", "No part")) and advice, f"{verdict} {advice}")
     names = output("MEAMPoseEstimation1", "types.pvsm").GetFieldData().GetAbstractArray("PartName")
     check([names.GetValue(k) for k in range(names.GetNumberOfValues())] == ["part", "knob"], "the types that are looked for")
+    in_sight = [shown(f"{folder}/deleted.pvsm", name) for name in ("scan.pcd", "knob.stl")]
+    check(in_sight == [True, False], f"of the scan and of a CAD whose poses were deleted these are shown: {in_sight}")
     picks = output("PickPlanning1", "picks.pvsm").GetPointData().GetArray("Instance")
     with open(os.path.join(folder, "poses.json")) as file:
         poses = json.load(file)["poses"]
