@@ -237,9 +237,14 @@ std::vector<Mistake> mistakesInUse()
 {
   std::vector<Mistake> mistakes{ { "one of its poses is inverse",
                                    [](HandEyePair& pair) { pair.T_camera_target = pair.T_camera_target.inverse(); } },
-    { "both poses of a pair are inverse", [](HandEyePair& pair) {
-       pair = { pair.T_base_gripper.inverse(), pair.T_camera_target.inverse() };
-     } } };
+    { "both poses of a pair are inverse",
+      [](HandEyePair& pair) {
+        pair = { pair.T_base_gripper.inverse(), pair.T_camera_target.inverse() };
+      } },
+    { "the grippers' rotations are transposed",
+      [](HandEyePair& pair) { pair.T_base_gripper.linear().transposeInPlace(); } },
+    { "the targets' rotations are transposed",
+      [](HandEyePair& pair) { pair.T_camera_target.linear().transposeInPlace(); } } };
   for (const LengthUnit& unit : UnitsBesideMM)
   {
     const std::string name = unit.name;

@@ -113,7 +113,8 @@ HandEyeFile readTable(const std::string& path, const std::string& bytes)
     if (!good || numbers.size() != 32)
     {
       failHandEye(
-        path, "has a row that is not 32 numbers, T_base_gripper and T_camera_target: pair " + std::to_string(pair + 1));
+        path, "has a row that is not 32 numbers, T_base_gripper and T_camera_target as matrices of 4x4, but " +
+                std::to_string(numbers.size()) + " words: pair " + std::to_string(pair + 1));
     }
     const Eigen::Isometry3d T_base_gripper = poseOf(path, numbers.data(), 1.0, "T_base_gripper", pair);
     result.pairs.push_back({ T_base_gripper, poseOf(path, numbers.data() + 16, 1.0, "T_camera_target", pair) });

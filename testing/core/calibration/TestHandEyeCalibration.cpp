@@ -123,6 +123,9 @@ TEST(HandEyeCalibration, anAbsurdFitIsRefusedWithWhatItLooksLike)
   EXPECT_TRUE(files::contains(inches, "grippers' poses are in inches")) << inches;
   const std::string centimetres = error(changed([](HandEyePair& pair) { pair.T_camera_target.translation() /= 10.0; }));
   EXPECT_TRUE(files::contains(centimetres, "targets' poses are in centimetres")) << centimetres;
+  const std::string columns =
+    error(changed([](HandEyePair& pair) { pair.T_base_gripper.linear().transposeInPlace(); }));
+  EXPECT_TRUE(files::contains(columns, "grippers' rotations are transposed")) << columns;
   for (const double factor : { 1e-3, 1e3 })
   {
     const std::string all = error(changed(

@@ -57,7 +57,7 @@ TEST(HandEyeFile, errorsNameThePair)
   readHandEye.fails("{\"pairs\": [" + pair(Identity, "[2,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]") + "]}", "T_camera_target");
   readHandEye.fails(R"({"units": "inch", "pairs": []})", "'units'");
   readHandEye.fails(R"({"mount": "wall", "pairs": []})", "'mount'");
-  readHandEye.fails("1,2,3\n", "32 numbers");
+  readHandEye.fails("1,2,3\n", "32 numbers, T_base_gripper and T_camera_target as matrices of 4x4, but 3 words");
   readHandEye.fails("1,2,x3\n", "32 numbers");
   EXPECT_THROW(meam::readHandEye("/no/such/file"), meam::Error);
 }
