@@ -9,9 +9,11 @@
 #include "vtkCallbackCommand.h"
 #include "vtkCommand.h"
 #include "vtkDataObject.h"
+#include "vtkDataSetAttributes.h"
 #include "vtkNew.h"
 #include "vtkPVArrayInformation.h"
 #include "vtkPVDataInformation.h"
+#include "vtkPVDataSetAttributesInformation.h"
 #include "vtkSMInputProperty.h"
 #include "vtkSMPVRepresentationProxy.h"
 #include "vtkSMParaViewPipelineControllerWithRendering.h"
@@ -28,6 +30,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 #include <vector>
 
 namespace
@@ -251,13 +254,31 @@ void hideInFront(vtkSMRenderViewProxy* view, double nearest)
   }
 }
 
+/// By the active scalars, as ParaView colors what has them when it is added.
+void colorByScalars(vtkSMRenderViewProxy* view, vtkSMProxy* representation, vtkPVDataInformation* data)
+{
+  auto* shown = vtkSMPVRepresentationProxy::SafeDownCast(representation);
+  for (const int kind : { vtkDataObject::POINT, vtkDataObject::CELL })
+  {
+    vtkPVArrayInformation* scalars =
+      data->GetAttributeInformation(kind)->GetAttributeInformation(vtkDataSetAttributes::SCALARS);
+    if (shown && scalars)
+    {
+      shown->SetScalarColoring(scalars->GetName(), kind);
+      shown->SetScalarBarVisibility(view, true);
+      return;
+    }
+  }
+}
+
 /// Listens for what is added to views.
 class DisplayDefaults
 {
 public:
   void listen()
   {
-    this->OfTypes->SetCallback(onUpdated);
+    this->Updated->SetCallback(onUpdated);
+    this->Updated->SetClientData(this);
     vtkSMProxyManager* proxies = vtkSMProxyManager::GetProxyManager();
     proxies->AddObserver(vtkCommand::RegisterEvent, this, &DisplayDefaults::onRegistered);
   }
@@ -318,9 +339,13 @@ private:
       showText(representation);
       return;
     }
-    if (shown.port == 0 && !shown.source->HasObserver(vtkCommand::UpdateDataEvent, this->OfTypes))
+    if (shown.data()->GetNumberOfPoints() == 0) // where Apply failed it shows something after another one
     {
-      shown.source->AddObserver(vtkCommand::UpdateDataEvent, this->OfTypes);
+      this->Empty.emplace_back(view, representation);
+    }
+    if (!shown.source->HasObserver(vtkCommand::UpdateDataEvent, this->Updated))
+    {
+      shown.source->AddObserver(vtkCommand::UpdateDataEvent, this->Updated);
       nameTypes(shown.source);
     }
     showInFront(representation, shown);
@@ -349,10 +374,35 @@ private:
     }
   }
 
-  static void onUpdated(vtkObject* caller, unsigned long, void*, void*) { nameTypes(vtkSMSourceProxy::SafeDownCast(caller)); }
+  static void onUpdated(vtkObject* caller, unsigned long, void* listener, void*)
+  {
+    auto* source = vtkSMSourceProxy::SafeDownCast(caller);
+    nameTypes(source);
+    static_cast<DisplayDefaults*>(listener)->showFilled(source);
+  }
+
+  void showFilled(vtkSMSourceProxy* source)
+  {
+    const auto known = std::exchange(this->Empty, {});
+    for (const auto& [view, representation] : known)
+    {
+      const ShownData shown(representation);
+      if (!view || shown.source != source || shown.data()->GetNumberOfPoints() == 0)
+      {
+        this->Empty.emplace_back(view, representation);
+        continue;
+      }
+      colorByScalars(view, representation, shown.data());
+      this->onAdded(view, representation);
+    }
+    this->Empty.erase(std::remove_if(this->Empty.begin(), this->Empty.end(),
+                        [](const auto& one) { return !one.first || !one.second; }),
+      this->Empty.end());
+  }
 
   std::vector<vtkWeakPointer<vtkSMProxy>> Seen;
-  vtkNew<vtkCallbackCommand> OfTypes;
+  std::vector<std::pair<vtkWeakPointer<vtkSMRenderViewProxy>, vtkWeakPointer<vtkSMProxy>>> Empty; ///< as they were added
+  vtkNew<vtkCallbackCommand> Updated;
   Legends InViews;
 };
 }

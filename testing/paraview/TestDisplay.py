@@ -221,3 +221,13 @@ check(list(table.Annotations) == ["0", "hole plate", "1", "flap"], f"the legend 
 types.Input = parts[1:]
 simple.Render(view)
 check(list(table.Annotations) == ["0", "flap", "1", "knob"], f"the legend of other types has {table.Annotations}")
+
+# What comes out of a second Apply, after one that failed, is colored, too.
+view = simple.CreateRenderView()
+found = simple.MEAMPoseEstimation(Input=parts[0], Scene=simple.OutputPort(bin, 0), MaximumNumberOfPoses=1, CADScale=0.001)
+copies = simple.Show(simple.OutputPort(found, 2), view)
+simple.Render(view)
+check(not copies.ColorArrayName[0], "there is nothing to color")
+found.CADScale = 1
+simple.Render(view)
+check(list(copies.ColorArrayName) == ["POINTS", "Rank"], f"after a failure they are colored by {copies.ColorArrayName}")
