@@ -19,6 +19,8 @@ public:
 
   /// Whether a point of the part's frame is deeper in the part.
   bool isDeep(const Eigen::Vector3f& point) const;
+  /// Around the part, in its frame.
+  const Eigen::AlignedBox3f& box() const { return this->Box; }
 
 private:
   /// From a point to the nearest sample, and its normal; false where none is near.

@@ -6,6 +6,7 @@
 #include "base/sequences/Sequences.h"
 #include "model/BodyInterior.h"
 #include "model/MirrorImage.h"
+#include "model/SurroundingPatches.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +19,6 @@ namespace
 // Shares of the diameter.
 constexpr double VotingLeaf = 0.04; // of the edge points in a cube of this side one makes pairs, in model and scene
 constexpr double VerificationLeaf = 0.03; // of the surface points in such a cube one verifies poses
-constexpr double Reach = 0.03;            // of the distance fields, and of what is deep: tolerances are less
 constexpr double FieldCell = 0.0075;      // of the distance fields
 constexpr float SheetWidth = 3.0f;        // thicknesses: what is narrower is a rod
 constexpr double FlatThickness = 0.075;   // PoseEvidence tells such parts from what they lie on by their thickness
@@ -84,7 +84,7 @@ PairFeatureQuantizer TrainedModel::surfaceQuantizer() const
 
 void TrainedModel::deriveFields()
 {
-  const double reach = Reach * this->diameter;
+  const double reach = FieldReach * this->diameter;
   const double cell = FieldCell * this->diameter;
   // Threads of their own, not OpenMP's, which a forked process cannot start: models are loaded there, too.
   auto ofSurface = std::async(std::launch::async,
@@ -103,5 +103,6 @@ void TrainedModel::deriveFields()
   this->edgeDistance = ofEdges.get();
   this->interior = std::make_shared<const BodyInterior>(this->surface, this->diameter, reach);
   this->mirrorImage = std::make_shared<const MirrorImage>();
+  this->surroundings = std::make_shared<const SurroundingPatches>();
 }
 }

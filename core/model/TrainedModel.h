@@ -14,6 +14,7 @@ namespace meam
 {
 class BodyInterior;
 class MirrorImage;
+class SurroundingPatches;
 
 /// How the edge appearance models come into one table.
 enum class ViewMerging
@@ -35,6 +36,7 @@ struct SurfacePairSettings
 // point for the surface, a little over the spacing of these points.
 constexpr double EdgePointSpacing = 0.03;
 constexpr double SurfacePointSpacing = 0.018;
+constexpr double FieldReach = 0.03; // of the distance fields, and of what is deep: tolerances are less
 
 struct MEAMHashingSettings
 {
@@ -95,9 +97,10 @@ struct TrainedModel
   std::vector<int> verificationPoints; ///< indices of the surface points that poses are verified on
   DistanceField surfaceDistance;       ///< up to 3 % of the diameter
   DistanceField edgeDistance;
-  std::shared_ptr<const PredictedVisibility> visibility; ///< what should be seen of the part from where
-  std::shared_ptr<const BodyInterior> interior;          ///< what lies deep in the part
-  std::shared_ptr<const MirrorImage> mirrorImage;        ///< the part as a mirror shows it
+  std::shared_ptr<const PredictedVisibility> visibility;  ///< what should be seen of the part from where
+  std::shared_ptr<const BodyInterior> interior;           ///< what lies deep in the part
+  std::shared_ptr<const MirrorImage> mirrorImage;         ///< the part as a mirror shows it
+  std::shared_ptr<const SurroundingPatches> surroundings; ///< patches of its surface and beside it
 
   /// Makes what voting and verification look up and what files do not hold: to be called when all else is there.
   void deriveFields();

@@ -2,19 +2,17 @@
 #include "pose/objective/CommonDifferences.h"
 
 #include "base/Parallel.h"
-#include "model/BodyInterior.h"
+#include "model/SurroundingPatches.h"
 #include "pose/objective/BodyOverlap.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 
 namespace meam
 {
 namespace
 {
-constexpr double PatchSide = 0.06;       // of the diameter: about ten samples of the surface
 constexpr double OnPart = 0.02;          // of the diameter: surface so near to the part is the part's,
 constexpr double OnPartNoises = 2.0;     // or so near in standard deviations of the scan's noise
 constexpr double LeastFacing = 0.35;     // cosine towards the sensor: flatter surface is measured badly
@@ -25,18 +23,12 @@ constexpr int DifferentByChance = 1;     // and one more of so many that are tol
 constexpr int ToldOfEachDifferent = 100; // of right parts two of four hundred were, at most
 
 // Beside the part, in diameters
-constexpr float Beside = 0.03f;       // off the part: as far as its distance field goes
-constexpr float NearlyBeside = 0.98f; // of that
-constexpr int Ways = 8;               // from a sample along its face
-constexpr int Steps = 4;              // in each
-constexpr float Step = 0.01f;         // from Beside on
-constexpr float SmearedPixels = 5.0f; // off the part at least: so far sensors carry a face beyond its rim
-constexpr float SameFace = 0.01f;     // off a face: on what goes on from it, or so near by the noise,
+constexpr double SmearedPixels = 5.0;   // off the part at least: so far sensors carry a face beyond its rim
+constexpr float NearlyFarthest = 0.98f; // that the part's distance field tells
+constexpr float SameFace = 0.01f;       // off a face: on what goes on from it, or so near by the noise,
 constexpr float MostSameFace = 0.04f; // and no more along the line of sight: else what lies behind may seem to be on it
 constexpr double MostApart = 1.2;     // from middle to middle of a copy that may lie beside
 constexpr float OfBin = 0.03f;        // off the bin's floor or a wall
-
-using Patch = std::array<int, 3>;
 
 /// Points of a patch on one copy.
 struct PatchPoints
@@ -45,21 +37,7 @@ struct PatchPoints
   int different = 0, hidden = 0;
 };
 
-using Patches = std::map<Patch, PatchPoints>;
-
-/// The patch of a point: of a round part a ring, for its copies are turned by any angle.
-Patch patchOf(const Eigen::Vector3f& point, const Symmetries& symmetries, double side)
-{
-  Eigen::Vector3d place = point.cast<double>();
-  if (!symmetries.continuous.empty())
-  {
-    const auto& [axis, foot] = symmetries.continuous.front();
-    const double along = (place - foot).dot(axis);
-    place = Eigen::Vector3d(along, (place - foot - along * axis).norm(), 0.0);
-  }
-  const Eigen::Array3i cell = (place.array() / side).floor().cast<int>();
-  return { cell.x(), cell.y(), cell.z() };
-}
+using Patches = std::vector<PatchPoints>; ///< by their numbers
 
 /// Whether the sensor saw past a point in all cells about its own, too. `behind`: mm along the line of sight.
 bool isClearAbout(const Eigen::Vector3f& point, const Eigen::Vector3f& towards, float behind, const FineDepth& depth)
@@ -73,39 +51,6 @@ bool isClearAbout(const Eigen::Vector3f& point, const Eigen::Vector3f& towards, 
     });
 }
 
-/// Where the faces of a part would go on if they did not end: points beside its samples.
-std::vector<Points> besideSamples(const TrainedModel& model, double pitch, int threads)
-{
-  const float diameter = static_cast<float>(model.diameter);
-  const float further = std::max(SmearedPixels * static_cast<float>(pitch) - Beside * diameter, 0.0f);
-  const auto isBeside = [&](const Eigen::Vector3f& point)
-  { return model.surfaceDistance.at(point) > NearlyBeside * Beside * diameter; };
-  std::vector<Points> beside(model.surface.size());
-  parallelForEach(static_cast<int>(beside.size()), threads, {},
-    [&](int i)
-    {
-      const Eigen::Vector3f& normal = model.surface.normals[i];
-      const Eigen::Vector3f across = normal.unitOrthogonal(), other = normal.cross(across);
-      for (int way = 0; way < Ways; ++way)
-      {
-        const float angle = static_cast<float>(2.0 * M_PI * way / Ways);
-        const Eigen::Vector3f along = std::cos(angle) * across + std::sin(angle) * other;
-        float distance = Beside * diameter;
-        int step = 0;
-        for (; step < Steps && !isBeside(model.surface.points[i] + distance * along); ++step)
-        {
-          distance += Step * diameter;
-        }
-        const Eigen::Vector3f point = model.surface.points[i] + (distance + further) * along;
-        if (step < Steps && isBeside(point) && !model.interior->isDeep(point))
-        {
-          beside[i].push_back(point);
-        }
-      }
-    });
-  return beside;
-}
-
 /// What copies show of the part, and beside it.
 class CopiesInSight
 {
@@ -117,12 +62,14 @@ public:
     , Model(model)
     , Noise(static_cast<float>(OnPartNoises * scene.quality.noise))
     , Face(std::max(SameFace * static_cast<float>(model.diameter), this->Noise))
-    , BesideSamples(besideSamples(model, scene.depth.pitch(), threads))
+    , OfPart(model.surroundings->of(model, SmearedPixels * scene.depth.pitch(), threads))
   {
   }
 
   void collect(int copy, Patches& ofPart, Patches& beside) const
   {
+    ofPart.resize(this->OfPart->count);
+    beside.resize(this->OfPart->count);
     const Pose& pose = this->Copies[copy];
     const std::vector<Eigen::Isometry3f> others = this->lyingBeside(pose.T_scene_model);
     const Eigen::Isometry3f T = pose.T_scene_model.cast<float>();
@@ -131,42 +78,35 @@ public:
     for (const int i : this->Model.visibility->samplesInSight(pose.T_scene_model, this->InScene.sensor, LeastFacing))
     {
       const float facing = this->Model.surface.normals[i].dot(towards);
-      this->addPart(this->Model.surface.points[i], T, T.linear() * towards, onPart / facing, ofPart);
+      this->addPart(
+        T * this->Model.surface.points[i], T.linear() * towards, onPart / facing, ofPart[this->OfPart->ofSamples[i]]);
       if (this->Face / facing <= MostSameFace * static_cast<float>(this->Model.diameter))
       {
-        for (const Eigen::Vector3f& point : this->BesideSamples[i])
+        for (int k = this->OfPart->begins[i]; k < this->OfPart->begins[i + 1]; ++k)
         {
-          this->addBeside(point, T, others, this->Face / facing, beside);
+          this->addBeside(T * this->OfPart->beside[k], others, this->Face / facing, beside[this->OfPart->ofBeside[k]]);
         }
       }
     }
   }
 
 private:
-  PatchPoints& patchOf(const Eigen::Vector3f& point, Patches& patches) const
+  void addPart(const Eigen::Vector3f& point, const Eigen::Vector3f& towards, float behind, PatchPoints& patch) const
   {
-    return patches[meam::patchOf(point, this->Model.symmetries, PatchSide * this->Model.diameter)];
-  }
-
-  void addPart(const Eigen::Vector3f& point, const Eigen::Isometry3f& T, const Eigen::Vector3f& towards, float behind,
-    Patches& patches) const
-  {
-    PatchPoints& patch = this->patchOf(point, patches);
-    const DepthGrid::Relation relation = this->InScene.fineDepth.relation(T * point, behind);
+    const DepthGrid::Relation relation = this->InScene.fineDepth.relation(point, behind);
     const bool isInFront = relation == DepthGrid::Relation::InFront;
-    const bool isPast = isInFront && isClearAbout(T * point, towards, behind, this->InScene.fineDepth);
+    const bool isPast = isInFront && isClearAbout(point, towards, behind, this->InScene.fineDepth);
     patch.different += isPast;
     patch.asPart += relation == DepthGrid::Relation::OnSurface || (isInFront && !isPast);
     patch.hidden += relation == DepthGrid::Relation::Hidden;
   }
 
-  void addBeside(const Eigen::Vector3f& point, const Eigen::Isometry3f& T, const std::vector<Eigen::Isometry3f>& others,
-    float tolerance, Patches& patches) const
+  void addBeside(const Eigen::Vector3f& point, const std::vector<Eigen::Isometry3f>& others, float tolerance,
+    PatchPoints& patch) const
   {
-    PatchPoints& patch = this->patchOf(point, patches);
-    const DepthGrid::Relation relation = this->InScene.fineDepth.relation(T * point, tolerance);
+    const DepthGrid::Relation relation = this->InScene.fineDepth.relation(point, tolerance);
     const bool isSurface = relation == DepthGrid::Relation::OnSurface;
-    const bool isExplained = isSurface && this->isOfOther(T * point, others, tolerance);
+    const bool isExplained = isSurface && this->isOfOther(point, others, tolerance);
     patch.different += isSurface && !isExplained;
     patch.asPart += relation == DepthGrid::Relation::InFront;
     patch.hidden += relation == DepthGrid::Relation::Hidden || isExplained;
@@ -193,8 +133,8 @@ private:
   bool isOfOther(const Eigen::Vector3f& point, const std::vector<Eigen::Isometry3f>& others, float tolerance) const
   {
     const float diameter = static_cast<float>(this->Model.diameter);
-    const float near =
-      std::min(std::max(static_cast<float>(OnPart) * diameter, tolerance), NearlyBeside * Beside * diameter);
+    const float near = std::min(std::max(static_cast<float>(OnPart) * diameter, tolerance),
+      NearlyFarthest * static_cast<float>(FieldReach) * diameter);
     const auto& planes = this->InScene.enclosure;
     return std::any_of(planes.begin(), planes.end(),
              [&](const Plane& plane) { return std::abs(plane.signedDistance(point)) < OfBin * diameter; }) ||
@@ -207,7 +147,7 @@ private:
   const Scene& InScene;
   const TrainedModel& Model;
   float Noise, Face; ///< mm
-  std::vector<Points> BesideSamples;
+  std::shared_ptr<const PartPatches> OfPart;
 };
 
 /// Patches that differ on most copies, beyond chance.
@@ -218,22 +158,22 @@ int differentOnMost(const std::vector<Patches>& ofCopies)
     int showing = 0;
     double different = 0.0;
   };
-  std::map<Patch, Copies> patches;
+  std::vector<Copies> patches(ofCopies.front().size());
   for (const Patches& ofCopy : ofCopies)
   {
-    for (const auto& [place, points] : ofCopy)
+    for (std::size_t k = 0; k < patches.size(); ++k)
     {
+      const PatchPoints& points = ofCopy[k];
       const int seen = points.asPart + points.different;
       if (seen >= PointsOfPatch && seen > points.hidden)
       {
-        Copies& copies = patches[place];
-        ++copies.showing;
-        copies.different += static_cast<double>(points.different) / seen;
+        ++patches[k].showing;
+        patches[k].different += static_cast<double>(points.different) / seen;
       }
     }
   }
   int told = 0, different = 0;
-  for (const auto& [place, copies] : patches)
+  for (const Copies& copies : patches)
   {
     const bool isTold = copies.showing >= CopiesOfPatch;
     told += isTold;

@@ -18,6 +18,7 @@ constexpr float SmoothTurn = 0.97f; // cosine between the normals of neighbours 
 // How far they lie off each other's plane: so much of the distance between them, 14 degrees, and standard deviations.
 constexpr float SmoothSlope = 0.25f;
 constexpr float Noises = 2.0f;
+static_assert(FitDistance <= FieldReach, "what lies farther off the part than its field reaches is not on it");
 }
 
 SurfaceContinuation::SurfaceContinuation(const Scene& scene, const TrainedModel& model)

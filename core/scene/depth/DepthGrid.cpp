@@ -159,47 +159,47 @@ DepthGrid::Layers DepthGrid::layersIn(
   const Rectangle& cells, const ScanProjection& scan, const std::vector<int>& runs) const
 {
   const GridCells grid{ this->Low.x(), this->Low.y(), this->InverseCell, this->Width, this->Height };
-  /// Calls visit(point, cell, depth, weight) for all points in the cells, in their order.
-  const auto forEach = [&](const auto& visit)
+  struct InCell
   {
-    ScanProjection::RunPoints points;
-    int cellOf[RunLength];
-    float weights[RunLength];
-    for (const int which : runs)
-    {
-      const ScanProjection::Run& run = scan.runs()[which];
-      const int count = run.end - run.begin;
-      scan.project(run, points);
-      place(points, count, grid, { cells.left, cells.top, cells.right, cells.bottom }, cellOf, weights);
-      for (int k = 0; k < count; ++k)
-      {
-        if (cellOf[k] >= 0)
-        {
-          visit(scan.scan()[run.begin + k], cellOf[k], points.depth[k], weights[k]);
-        }
-      }
-    }
+    int point, cell;
+    float depth, weight;
   };
+  thread_local std::vector<InCell> seen; // of the points those in the cells, in their order
+  seen.clear();
   Layers layers;
   layers.nearest.assign(cells.size(), NothingSeen);
   layers.farthest.assign(cells.size(), -NothingSeen);
-  forEach(
-    [&](const Eigen::Vector3f&, int cell, float depth, float)
+  ScanProjection::RunPoints points;
+  int cellOf[RunLength];
+  float weights[RunLength];
+  for (const int which : runs)
+  {
+    const ScanProjection::Run& run = scan.runs()[which];
+    const int count = run.end - run.begin;
+    scan.project(run, points);
+    place(points, count, grid, { cells.left, cells.top, cells.right, cells.bottom }, cellOf, weights);
+    for (int k = 0; k < count; ++k)
     {
-      layers.nearest[cell] = std::min(layers.nearest[cell], depth);
-      layers.farthest[cell] = std::max(layers.farthest[cell], depth);
-    });
+      const int cell = cellOf[k];
+      if (cell >= 0)
+      {
+        const float depth = points.depth[k];
+        layers.nearest[cell] = std::min(layers.nearest[cell], depth);
+        layers.farthest[cell] = std::max(layers.farthest[cell], depth);
+        seen.push_back({ run.begin + k, cell, depth, weights[k] });
+      }
+    }
+  }
   // In double precision the order of the points has no part in what a sum is rounded to.
   layers.weighted.assign(cells.size(), Eigen::Vector4d::Zero());
-  const float depth = this->layer();
-  forEach(
-    [&](const Eigen::Vector3f& point, int cell, float at, float weight)
+  const float layer = this->layer();
+  for (const auto& [point, cell, depth, weight] : seen)
+  {
+    if (depth <= layers.nearest[cell] + layer)
     {
-      if (at <= layers.nearest[cell] + depth)
-      {
-        layers.weighted[cell] += static_cast<double>(weight) * point.homogeneous().cast<double>();
-      }
-    });
+      layers.weighted[cell] += static_cast<double>(weight) * scan.scan()[point].homogeneous().cast<double>();
+    }
+  }
   return layers;
 }
 }

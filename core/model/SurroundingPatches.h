@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/PointCloud.h"
+
+#include <memory>
+#include <mutex>
+#include <vector>
+
+namespace meam
+{
+struct TrainedModel;
+
+/// Patches of a part's surface and of the places beside it, by which its copies are compared, numbered together.
+struct PartPatches
+{
+  int count = 0;
+  std::vector<int> ofSamples; ///< of each sample of the surface
+  Points beside;              ///< where the faces of the samples would go on if they did not end
+  std::vector<int> ofBeside;  ///< of each of these
+  std::vector<int> begins;    ///< of each sample the first of its places, and the end of the last one's
+};
+
+/// The patches of a model. Those for one resolution are kept, as scans of one sensor have it. Calls may run in
+/// parallel.
+class SurroundingPatches
+{
+public:
+  /// `model` is the one that holds this. The places beside it are no nearer than `distance` (mm), nor than where its
+  /// distance field ends.
+  std::shared_ptr<const PartPatches> of(const TrainedModel& model, double distance, int threads) const;
+
+private:
+  mutable std::mutex Making;
+  mutable int Further = 0; ///< steps that the places are farther off than the field reaches
+  mutable std::shared_ptr<const PartPatches> Made;
+};
+}
