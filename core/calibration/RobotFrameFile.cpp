@@ -29,6 +29,11 @@ constexpr const char* Entry = "T_robot_camera";
   throw Error("The robot frame file '" + path + "' " + what + ".");
 }
 
+[[noreturn]] void failSeveral(const std::string& path)
+{
+  failRobotFrame(path, "has several transforms: leave the one from the robot's base to the camera alone");
+}
+
 Eigen::Isometry3d poseOf(const std::string& path, const std::vector<double>& numbers, double unit)
 {
   if (numbers.size() != 16)
@@ -96,7 +101,7 @@ std::optional<Eigen::Isometry3d> transformIn(
     }
     if (found)
     {
-      failRobotFrame(path, "has several transforms: leave the one from the robot's base to the camera alone");
+      failSeveral(path);
     }
     Eigen::Quaterniond turn(values[6], values[3], values[4], values[5]);
     Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
@@ -116,11 +121,14 @@ std::optional<Eigen::Isometry3d> transformIn(const std::string& path, const Nest
 {
   const auto apart = transformIn(path, numbers,
     { "translation.x", "translation.y", "translation.z", "rotation.x", "rotation.y", "rotation.z", "rotation.w" });
-  const auto pose = apart ? apart
-                          : transformIn(path, numbers,
-                              { "position.x", "position.y", "position.z", "orientation.x", "orientation.y",
-                                "orientation.z", "orientation.w" });
-  return pose ? pose : transformIn(path, numbers, { "x", "y", "z", "qx", "qy", "qz", "qw" });
+  const auto pose = transformIn(path, numbers,
+    { "position.x", "position.y", "position.z", "orientation.x", "orientation.y", "orientation.z", "orientation.w" });
+  const auto words = transformIn(path, numbers, { "x", "y", "z", "qx", "qy", "qz", "qw" });
+  if (apart.has_value() + pose.has_value() + words.has_value() > 1)
+  {
+    failSeveral(path);
+  }
+  return apart ? apart : pose ? pose : words;
 }
 
 std::optional<Eigen::Isometry3d> frameIn(const std::string& path, const nlohmann::json& file)
@@ -163,7 +171,8 @@ Eigen::Isometry3d readRobotFrame(const std::string& path)
   if (!found)
   {
     failRobotFrame(
-      path, std::string("has no ") + Entry + " (4x4), no translation and rotation, and not one matrix alone");
+      path, std::string("has no ") + Entry +
+              " (4x4), no translation and rotation, or position and orientation, and not one matrix alone");
   }
   const std::string doubt = cameraUnitDoubt(found->translation().norm());
   if (!doubt.empty())

@@ -26,6 +26,7 @@ namespace
 constexpr std::size_t MostBytes = 1 << 20;
 constexpr double MostPixels = 65535.0;    // in a row or a column
 constexpr double LeastFocalLength = 0.05; // of the image's width: a pinhole camera of 170 degrees
+constexpr double LeastFocalPixels = 20.0; // as lenses have mm
 
 [[noreturn]] void failCamera(const std::string& path, const std::string& what)
 {
@@ -131,25 +132,32 @@ struct Intrinsics
 
 constexpr Names MatrixNames = { "camera_matrix", "K", "cam_K", "mtx", "M1", "intrinsic_matrix", "intrinsics",
   "intrinsic", "camera_intrinsics" };
+constexpr Names WidthNames = { "image_width", "width", "resolution_width" };
+constexpr Names HeightNames = { "image_height", "height", "resolution_height" };
+constexpr Names SizeNames = { "resolution", "camera_resolution", "image_size", "img_size" };
 
-/// Of fx 0 cx, 0 fy cy, 0 0 1, with a fourth column or not, row by row or, as Open3D and MATLAB have it, column by
-/// column; or of fx fy cx cy, as Kalibr has them.
+/// Of fx 0 cx, 0 fy cy, 0 0 1, row by row or, as Open3D has it, column by column, with a fourth column and row that say
+/// nothing or without; or of fx fy cx cy, as Kalibr has them.
 Intrinsics intrinsicsOfMatrix(const std::string& path, const std::string& key, const std::vector<double>& numbers)
 {
-  if (numbers.size() == 4)
+  if (numbers.size() == 4 && bareName(key).find("intrinsic") != std::string::npos)
   {
     return { numbers[0], numbers[1], numbers[2], numbers[3] };
   }
-  const std::size_t columns = numbers.size() == 9 ? 3 : 4;
-  if (columns * 3 > numbers.size() || numbers.size() % columns != 0)
+  const Eigen::Index columns = numbers.size() == 9 ? 3 : 4, rows = static_cast<Eigen::Index>(numbers.size()) / columns;
+  if (static_cast<std::size_t>(rows * columns) != numbers.size() || rows < 3 || rows > columns)
   {
     failCamera(path, "has " + std::to_string(numbers.size()) + " numbers as " + key + " instead of 9");
   }
-  Eigen::Matrix3d K;
-  for (std::size_t row = 0; row < 3; ++row)
+  Eigen::Matrix4d whole = Eigen::Matrix4d::Identity();
+  whole.topLeftCorner(rows, columns) =
+    Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
+      numbers.data(), rows, columns);
+  if (whole.col(3) != Eigen::Vector4d::UnitW() || whole.row(3) != Eigen::RowVector4d::UnitW())
   {
-    K.row(static_cast<Eigen::Index>(row)) = Eigen::Map<const Eigen::RowVector3d>(&numbers[row * columns]);
+    failCamera(path, "has more than a camera matrix as " + key + ": give its 9 numbers alone");
   }
+  Eigen::Matrix3d K = whole.topLeftCorner<3, 3>();
   if (K(0, 2) == 0.0 && K(1, 2) == 0.0)
   {
     K.transposeInPlace();
@@ -167,52 +175,53 @@ std::optional<Intrinsics> intrinsicsOf(const std::string& path, const nlohmann::
   {
     failCamera(path, "has 2 cameras, M1 and M2: leave the one that is meant");
   }
-  if (const auto matrix = find(path, entries, MatrixNames, 4, 16); !matrix.empty())
+  if (const std::string key = keyOf(entries, MatrixNames); !key.empty())
   {
-    return intrinsicsOfMatrix(path, keyOf(entries, MatrixNames), matrix);
+    return intrinsicsOfMatrix(path, key, numbersOfMatrix(entries[key], path, key));
   }
-  const auto focal = find(path, entries, { "focal_length", "f" }, 1, 2);
-  const auto centre = find(path, entries, { "principal_point", "c" }, 2, 2);
   Intrinsics result{};
   const struct
   {
     double* value;
-    const char *name, *other; // ppx: RealSense's
-    std::optional<double> ofBoth;
-  } values[] = { { &result.fx, "fx", "fx", focal.empty() ? std::nullopt : std::optional(focal.front()) },
-    { &result.fy, "fy", "fy", focal.empty() ? std::nullopt : std::optional(focal.back()) },
-    { &result.cx, "cx", "ppx", centre.empty() ? std::nullopt : std::optional(centre.front()) },
-    { &result.cy, "cy", "ppy", centre.empty() ? std::nullopt : std::optional(centre.back()) } };
-  for (const auto& [value, name, other, ofBoth] : values)
+    const char *name, *other, *ofBoth; // ppx: RealSense's
+    bool isLast;
+  } values[] = { { &result.fx, "fx", "fx", "focal_length", false }, { &result.fy, "fy", "fy", "focal_length", true },
+    { &result.cx, "cx", "ppx", "principal_point", false }, { &result.cy, "cy", "ppy", "principal_point", true } };
+  for (const auto& [value, name, other, ofBoth, isLast] : values)
   {
-    const auto number = find(path, entries, { name, other }, 1, 1);
-    if (number.empty() && !ofBoth)
+    auto number = find(path, entries, { name, other }, 1, 1);
+    number = number.empty() ? find(path, entries, { ofBoth }, 1, 2) : number;
+    if (number.empty())
     {
       return std::nullopt;
     }
-    *value = number.empty() ? *ofBoth : number.front();
+    *value = isLast ? number.back() : number.front();
   }
   return result;
 }
 
-/// Width and height, 0 where they are not known.
-std::array<int, 2> sizeOf(const std::string& path, const nlohmann::json& entries, const Intrinsics& intrinsics)
+bool hasSize(const nlohmann::json& entries)
 {
-  const std::string both = keyOf(entries, { "resolution", "camera_resolution", "image_size", "img_size" });
+  return !keyOf(entries, WidthNames).empty() || !keyOf(entries, HeightNames).empty() ||
+         !keyOf(entries, SizeNames).empty();
+}
+
+/// Width and height, 0 where they are not known.
+std::array<int, 2> sizeOf(const std::string& path, const nlohmann::json& entries)
+{
+  const std::string both = keyOf(entries, SizeNames);
   const bool isNested = !both.empty() && entries[both].is_object() && !entries[both].contains("data");
-  const nlohmann::json& owner = isNested ? entries[both] : entries;
-  if (both.empty() || isNested)
+  if (both.empty() || isNested || !keyOf(entries, WidthNames).empty())
   {
-    return { pixels(path, find(path, owner, { "image_width", "width", "resolution_width" }, 1, 1)),
-      pixels(path, find(path, owner, { "image_height", "height", "resolution_height" }, 1, 1)) };
+    const nlohmann::json& owner = isNested ? entries[both] : entries;
+    if (isNested && (keyOf(owner, WidthNames).empty() || keyOf(owner, HeightNames).empty()))
+    {
+      failCamera(path, "has a " + both + " without a width and a height");
+    }
+    return { pixels(path, find(path, owner, WidthNames, 1, 1)), pixels(path, find(path, owner, HeightNames, 1, 1)) };
   }
   const auto numbers = find(path, entries, { both.c_str() }, 2, 2);
-  const std::array<int, 2> size = { pixels(path, { numbers[0] }), pixels(path, { numbers[1] }) };
-  // MATLAB has the rows first: the principal point is about in the middle.
-  const auto offMiddle = [&](double width, double height)
-  { return std::abs(intrinsics.cx / width - 0.5) + std::abs(intrinsics.cy / height - 0.5); };
-  const bool isSwapped = offMiddle(size[1], size[0]) < offMiddle(size[0], size[1]);
-  return isSwapped ? std::array<int, 2>{ size[1], size[0] } : size;
+  return { pixels(path, { numbers[0] }), pixels(path, { numbers[1] }) };
 }
 
 /// Whether a bare name is one of the lens's distortion, its model's among them.
@@ -392,10 +401,12 @@ bool isOfCamera(const nlohmann::json& entries)
     return false;
   }
   const std::string matrix = keyOf(entries, MatrixNames);
-  const bool isMatrix = !matrix.empty() && (!entries[matrix].is_object() || entries[matrix].contains("data") ||
-                                             entries[matrix].contains("rows"));
-  const bool isPair = !keyOf(entries, { "focal_length", "f" }).empty() &&
-                      !keyOf(entries, { "principal_point", "c", "cx", "ppx" }).empty();
+  const nlohmann::json& value = matrix.empty() ? entries : entries[matrix];
+  const bool hasObjects = value.is_array() && !value.empty() && value.front().is_object(); // a list of cameras
+  const bool isMatrix =
+    !matrix.empty() && !hasObjects && (!value.is_object() || value.contains("data") || value.contains("rows"));
+  const bool isPair =
+    !keyOf(entries, { "focal_length" }).empty() && !keyOf(entries, { "principal_point", "cx", "ppx" }).empty();
   return isMatrix || isPair || !keyOf(entries, { "fx" }).empty();
 }
 
@@ -433,13 +444,19 @@ nlohmann::json entriesOfCamera(const std::string& path, const nlohmann::json& fi
   {
     failCamera(path, "has " + std::to_string(cameras.size()) + " cameras: leave the one that is meant");
   }
-  nlohmann::json entries = nlohmann::json::object();
-  for (std::size_t i = cameras.empty() ? 0 : cameras.front().size(); i > 0; --i)
+  if (cameras.empty())
   {
-    const nlohmann::json& from = *cameras.front()[i - 1];
-    for (const auto& [name, entry] : from.items()) // of a list the names are numbers
+    return nlohmann::json::object();
+  }
+  const Ancestors& found = cameras.front();
+  nlohmann::json entries = *found.back();
+  for (std::size_t i = found.size() - 1; i > 0; --i)
+  {
+    const bool isSized = hasSize(entries);
+    for (const auto& [name, entry] : found[i - 1]->items()) // of a list the names are numbers
     {
-      if (!entries.contains(name) && (i == cameras.front().size() || &entry != cameras.front()[i]))
+      const bool isOther = bareName(name) == "model" || (isSized && hasSize({ { name, entry } })); // the device's
+      if (&entry != found[i] && !isOther && keyOf(entries, { name.c_str() }).empty())
       {
         entries[name] = entry;
       }
@@ -478,6 +495,12 @@ bool isINI(const std::string& text)
 
 Camera cameraOf(const std::string& path, const nlohmann::json& entries)
 {
+  if (!keyOf(entries, { "radial_distortion" }).empty())
+  {
+    failCamera(path,
+      "is one of MATLAB's, which count pixels from 1 and have the lens in two lists: give fx, fy, cx and cy "
+      "less 1, and dist, k1 k2 p1 p2 k3");
+  }
   requirePinhole(path, entries);
   requireWholeImage(path, entries);
   const std::optional<Intrinsics> intrinsics = intrinsicsOf(path, entries);
@@ -490,14 +513,15 @@ Camera cameraOf(const std::string& path, const nlohmann::json& entries)
   camera.fy = intrinsics->fy;
   camera.cx = intrinsics->cx;
   camera.cy = intrinsics->cy;
-  const std::array<int, 2> size = sizeOf(path, entries, *intrinsics);
+  const std::array<int, 2> size = sizeOf(path, entries);
   camera.width = size[0];
   camera.height = size[1];
   const double width = std::max<double>(camera.width, 2.0 * camera.cx);
-  if (camera.fx > 0.0 && camera.fx < LeastFocalLength * width)
+  const double focal = std::min(camera.fx, camera.fy);
+  if (focal > 0.0 && focal < std::max(LeastFocalLength * width, LeastFocalPixels))
   {
     char told[96];
-    std::snprintf(told, sizeof told, "%.4g, where the image is about %.0f wide", camera.fx, width);
+    std::snprintf(told, sizeof told, "%.4g, where the image is about %.0f wide", focal, width);
     failCamera(path, std::string("has the focal length ") + told + ": give it in pixels, not in mm");
   }
   camera.distortion = distortionOf(path, entries);

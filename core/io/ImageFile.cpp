@@ -441,7 +441,17 @@ Image readImage(const std::string& path)
   cv::Mat pixels = decode(path, std::move(bytes), MostImageBits);
   if (pixels.depth() == CV_16U)
   {
-    pixels.convertTo(pixels, CV_8U, 255.0 / mostOfDeep(pixels));
+    if (pixels.channels() == 4)
+    {
+      cv::cvtColor(pixels, pixels, cv::COLOR_BGRA2BGR); // an alpha of 65535 is no brightness
+    }
+    const cv::Mat deep = pixels;
+    const double most = mostOfDeep(deep);
+    deep.convertTo(pixels, CV_8U, 255.0 / most);
+    if (most < std::numeric_limits<std::uint16_t>::max())
+    {
+      pixels.reshape(1).setTo(1, (deep.reshape(1) > 0) & (pixels.reshape(1) == 0)); // labels of a mask stay
+    }
   }
   if (pixels.depth() != CV_8U || (pixels.channels() != 1 && pixels.channels() != 3 && pixels.channels() != 4))
   {

@@ -4,9 +4,9 @@
 #include "base/Bounds.h"
 #include "base/PointGrid.h"
 #include "base/sequences/Sequences.h"
-#include "model/BodyInterior.h"
+#include "model/body/BodyInterior.h"
 #include "model/MirrorImage.h"
-#include "model/SurroundingPatches.h"
+#include "model/body/SurroundingPatches.h"
 
 #include <algorithm>
 #include <cmath>

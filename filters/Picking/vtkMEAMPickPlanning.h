@@ -175,7 +175,7 @@ public:
   vtkMEAMClampedMemberMacro(ShownGrippers, int, BestOfEachInstance, AllPicks);
 
   /** Rank of the pick at which the gripper is shown whole; at the others thin lines leave the parts in sight. 0: it is
-   * shown whole at all. Default: 1. */
+   * shown whole at all picks. Default: 1. */
   vtkMEAMClampedMemberMacro(WholeGripper, int, 0, VTK_INT_MAX);
 
 protected:

@@ -41,8 +41,10 @@ image = run(reader(png(file("b.png"), row, "uint16")))
 check(tuples(image, "RGB") == [(0, 0, 1), (0, 1, 255), (254, 255, 1)], f"16 bits: {tuples(image, 'RGB')}")
 image = run(reader(png(file("c.png"), [[(7, 255), (9, 0)]])))
 check(tuples(image, "RGB") == [(7, 7, 7), (9, 9, 9)], f"grey with alpha: {tuples(image, 'RGB')}")
-image = run(reader(png(file("d.png"), [[(257,), (514,)]], "uint16")))
-check(tuples(image, "Intensity") == [(1,), (2,)], "16 bits, grey")
+image = run(reader(png(file("d.png"), [[(257,), (65535,)]], "uint16")))
+check(tuples(image, "Intensity") == [(1,), (255,)], "16 bits, grey")
+image = run(reader(png(file("e.png"), [[(0, 0, 4095, 65535), (1, 0, 2048, 65535)]], "uint16")))
+check(tuples(image, "RGB") == [(0, 0, 255), (1, 0, 128)], f"12 bits with alpha: {tuples(image, 'RGB')}")
 
 # The same pixels as VTK's own readers have.
 random = numpy.random.default_rng(1)

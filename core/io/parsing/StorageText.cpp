@@ -86,7 +86,12 @@ nlohmann::json valuesInXML(const std::string& path, const std::string& text)
     {
       *values.back() = nlohmann::json::object();
     }
-    nlohmann::json& value = (*values.back())[open.back()];
+    std::string name = open.back();
+    for (int next = 2; values.back()->contains(name); ++next) // another of the name
+    {
+      name = open.back() + '#' + std::to_string(next);
+    }
+    nlohmann::json& value = (*values.back())[name];
     values.push_back(&value);
     end = std::min(text.find('<', at), text.size());
     const std::string words = text.substr(at, end - at);

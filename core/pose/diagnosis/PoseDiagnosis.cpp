@@ -375,6 +375,10 @@ void PoseDiagnosis::explain(Diagnosis& diagnosis, const Eigen::Isometry3d& T_loc
 
 double PoseDiagnosis::penaltyOf(const Pose& found, const EvidenceCollector& collector) const
 {
+  if (!this->Detection.selection.search.maximizes || !this->Detection.selection.search.pattern.penalizes)
+  {
+    return 0.0;
+  }
   // Where least squares left it, what lies between tells that its covariance has beyond that of the place (fitInPlace).
   const PoseFitter fitter(this->InScene, this->Model);
   const PoseFit inPlace = fitInPlace(found, found.T_scene_model, this->InScene, this->Model);

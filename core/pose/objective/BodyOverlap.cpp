@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/objective/BodyOverlap.h"
 
-#include "model/BodyInterior.h"
+#include "model/body/BodyInterior.h"
 
 #include <algorithm>
 

@@ -2,7 +2,7 @@
 #include "pose/objective/CommonDifferences.h"
 
 #include "base/Parallel.h"
-#include "model/SurroundingPatches.h"
+#include "model/body/SurroundingPatches.h"
 #include "pose/objective/BodyOverlap.h"
 
 #include <algorithm>

@@ -196,13 +196,33 @@ TEST(CameraFile, intrinsicsAtAnyPlaceOfAFile)
   isRead(matrix);
   readCamera.fails("# oST version 5.0 parameters\n\n[image]\n\nwidth\n640\n", "INI");
   // Sizes.
-  for (const std::string size : { "image_size: [640, 480]", "ImageSize: [480, 640]",
-         "resolution: {width: 640, height: 480}", "CameraResolution: {Width: 640, Height: 480}" })
+  for (const std::string size : { "image_size: [640, 480]", "resolution: {width: 640, height: 480}",
+         "CameraResolution: {Width: 640, Height: 480}" })
   {
     const meam::Camera camera = isRead("K: " + matrix + "\n" + size);
     EXPECT_EQ((std::array<int, 2>{ camera.width, camera.height }), (std::array<int, 2>{ 640, 480 })) << size;
   }
+  EXPECT_EQ(isRead("K: " + matrix + "\nresolution: [480, 640]").width, 480) << "as the file has it";
+  EXPECT_EQ(
+    isRead("{\"Width\": 1920, \"model\": \"M2\", \"depth\": {\"K\": " + matrix + ", \"width\": 640}}").width, 640)
+    << "the camera's own before what it stands in";
+  readCamera.fails("K: " + matrix + "\nresolution: {x: 640, y: 480}", "a resolution without a width and a height");
   readCamera.fails("fx: 4.8\nfy: 4.8\ncx: 320\ncy: 240", "focal length 4.8");
+  readCamera.fails("focal_length: 8.5\nprincipal_point: [3.6, 2.4]", "focal length 8.5");
+}
+
+TEST(CameraFile, whatIsTakenForNoCamera)
+{
+  const std::string matrix = "[[800, 0, 320], [0, 801, 240], [0, 0, 1]]";
+  readCamera.fails("1 0 0 100\n0 1 0 200\n0 0 1 300\n0 0 0 1\n", "more than a camera matrix");
+  readCamera.fails("K: [[800, 0, 320, -40000], [0, 801, 240, 0], [0, 0, 1, 0]]", "more than a camera matrix as K");
+  readCamera.fails(
+    R"({"fx": 800, "fy": 801, "cx": 320, "cy": 240, "k": [0.1, 0.02, 0.003, 0.0004]})", "4 numbers as k instead of 9");
+  readCamera.fails("<s><camera><fx>800</fx><k1>.1</k1></camera><camera><fx>1200</fx></camera></s>", "has 2 cameras");
+  readCamera.fails("<c><f>3700</f><cx>12.3</cx><cy>-5.6</cy></c>", "neither"); // counted from the image's middle
+  readCamera.fails("K: " + matrix + "\nRadialDistortion: [0, 0]\nImageSize: [480, 640]", "MATLAB");
+  EXPECT_EQ(readCamera(R"({"intrinsics": [{"fx": 800, "fy": 801, "cx": 320, "cy": 240}]})").camera.fy, 801.0);
+  EXPECT_EQ(readCamera("fx: 800\nfy: 801\ncx: 320\ncy: 240\nfocal_length: 4.8 mm").camera.fx, 800.0);
 }
 
 namespace

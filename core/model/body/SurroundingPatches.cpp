@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "model/SurroundingPatches.h"
+#include "model/body/SurroundingPatches.h"
 
 #include "base/Parallel.h"
-#include "model/BodyInterior.h"
+#include "model/body/BodyInterior.h"
 #include "model/TrainedModel.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>

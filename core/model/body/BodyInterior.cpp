@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "model/BodyInterior.h"
+#include "model/body/BodyInterior.h"
 
 #include "base/Bounds.h"
 
