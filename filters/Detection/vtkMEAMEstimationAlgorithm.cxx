@@ -229,7 +229,9 @@ vtkMEAMEstimationAlgorithm::Work vtkMEAMEstimationAlgorithm::Prepare(vtkInformat
   work.settings.region = work.scan.region;
   for (int k = 0; k < inputVector[0]->GetNumberOfInformationObjects(); ++k)
   {
-    work.names.push_back(partNameOf(this, k));
+    const std::string name = partNameOf(this, k);
+    const bool isTaken = std::find(work.names.begin(), work.names.end(), name) != work.names.end();
+    work.names.push_back(isTaken ? name + " " + std::to_string(k + 1) : name);
   }
   return work;
 }
