@@ -47,6 +47,7 @@ struct Pose
   /// less the penalty of a search for it (PatternSearch), and less where its rotation is unsure: half that a copy is
   /// here and half that it is turned like this.
   double evidence = 0.0;
+  double penalty = 0.0; ///< log odds that PatternSearch took off, for it moved the pose to where they are most
   /// [0, 1], where a copy is here, how sure it is that the part is not turned by one of its near-symmetries: low when
   /// what breaks them is not in sight.
   double certainty = 1.0;

@@ -2,6 +2,7 @@
 #include "model/body/SurroundingPatches.h"
 
 #include "base/Parallel.h"
+#include "base/sequences/Sequences.h"
 #include "model/body/BodyInterior.h"
 #include "model/TrainedModel.h"
 
@@ -14,12 +15,11 @@ namespace meam
 {
 namespace
 {
-constexpr double PatchSide = 0.06;      // of the diameter: about ten samples of the surface
-constexpr int Ways = 8;                 // from a sample along its face
-constexpr int Steps = 4;                // in each
-constexpr float Step = 0.01f;           // of the diameter, from where the distance field ends
-constexpr double FurtherStep = 0.0025;  // of the diameter: about what scans of one sensor differ by
-constexpr float NearlyFarthest = 0.98f; // of the field's reach: so far off the part a place is beside it
+constexpr double PatchSide = 0.06;     // of the diameter: about ten samples of the surface
+constexpr int Ways = 8;                // from a sample along its face
+constexpr int Steps = 4;               // in each
+constexpr float Step = 0.01f;          // of the diameter, from where the distance field ends
+constexpr double FurtherStep = 0.0025; // of the diameter: about what scans of one sensor differ by
 
 using Cell = std::array<int, 3>;
 
@@ -79,18 +79,14 @@ PartPatches patchesOf(const TrainedModel& model, float further, int threads)
     const Cell cell = cellOf(point, model.symmetries, PatchSide * model.diameter);
     return numbers.emplace(cell, static_cast<int>(numbers.size())).first->second;
   };
+  patches.ofSamples = mapped<int>(model.surface.points, numberOf);
   patches.begins.push_back(0);
-  const std::vector<Points> beside = besideSamples(model, further, threads);
-  for (std::size_t i = 0; i < beside.size(); ++i)
+  for (const Points& places : besideSamples(model, further, threads))
   {
-    patches.ofSamples.push_back(numberOf(model.surface.points[i]));
-    for (const Eigen::Vector3f& point : beside[i])
-    {
-      patches.beside.push_back(point);
-      patches.ofBeside.push_back(numberOf(point));
-    }
+    patches.beside.insert(patches.beside.end(), places.begin(), places.end());
     patches.begins.push_back(static_cast<int>(patches.beside.size()));
   }
+  patches.ofBeside = mapped<int>(patches.beside, numberOf);
   patches.count = static_cast<int>(numbers.size());
   return patches;
 }

@@ -11,6 +11,9 @@ namespace meam
 {
 struct TrainedModel;
 
+/// Of the reach of a part's distance field: what is so far off the part is beside it.
+inline constexpr float NearlyFarthest = 0.98f;
+
 /// Patches of a part's surface and of the places beside it, by which its copies are compared, numbered together.
 struct PartPatches
 {
@@ -26,8 +29,8 @@ struct PartPatches
 class SurroundingPatches
 {
 public:
-  /// `model` is the one that holds this. The places beside it are no nearer than `distance` (mm), nor than where its
-  /// distance field ends.
+  /// `model` is the one that holds this. The places lie at least `distance` (mm) from their samples along their faces,
+  /// and where its distance field ends.
   std::shared_ptr<const PartPatches> of(const TrainedModel& model, double distance, int threads) const;
 
 private:

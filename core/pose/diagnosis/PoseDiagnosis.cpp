@@ -342,8 +342,9 @@ void PoseDiagnosis::explain(Diagnosis& diagnosis, const Eigen::Isometry3d& T_loc
     diagnosis.odds = collector.placeOdds(counts, *evidence.rates, collector.logOdds(counts, *evidence.rates));
     if (diagnosis.found)
     {
-      const bool matters = diagnosis.odds.shareOfSearch > 0.0;
-      diagnosis.penalty = matters ? this->penaltyOf(*diagnosis.found, collector) : 0.0;
+      const auto same = std::find_if(all.begin(), all.end(), // tables have no penalty
+        [&](const Pose& pose) { return offsetBetween(pose.T_scene_model, T, this->Model).within(SameResult); });
+      diagnosis.penalty = same != all.end() ? same->penalty : 0.0;
       diagnosis.odds.searched -= diagnosis.penalty;
       const double place = diagnosis.found->placeProbability;
       const double calibrated = std::log(place / (1.0 - place));
@@ -371,31 +372,6 @@ void PoseDiagnosis::explain(Diagnosis& diagnosis, const Eigen::Isometry3d& T_loc
       diagnosis.otherProbability = claimOf(all[k], this->Detection.selection.rotationCounts);
     }
   }
-}
-
-double PoseDiagnosis::penaltyOf(const Pose& found, const EvidenceCollector& collector) const
-{
-  if (!this->Detection.selection.search.maximizes || !this->Detection.selection.search.pattern.penalizes)
-  {
-    return 0.0;
-  }
-  // Where least squares left it, what lies between tells that its covariance has beyond that of the place (fitInPlace).
-  const PoseFitter fitter(this->InScene, this->Model);
-  const PoseFit inPlace = fitInPlace(found, found.T_scene_model, this->InScene, this->Model);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> axes(found.fit.covariance - inPlace.covariance);
-  PoseFitter::Twist between = std::sqrt(std::max(axes.eigenvalues()[5], 0.0)) * axes.eigenvectors().col(5);
-  between.head<3>() *= 0.5 * this->Model.diameter;
-  const PatternSearch search(collector, *this->Trace.rates(), this->Model, this->Detection.selection.search.pattern);
-  for (const double sign : { 1.0, -1.0 })
-  {
-    const Eigen::Isometry3d T_aligned = fitter.motionOf(found, sign * between) * found.T_scene_model;
-    const PatternSearch::Result moved = search.best(T_aligned);
-    if (moved.isMoved && offsetBetween(moved.T_scene_model, found.T_scene_model, this->Model).within(SameResult))
-    {
-      return search.at(moved.T_scene_model).logOdds - moved.logOdds;
-    }
-  }
-  return 0.0;
 }
 
 LossCause PoseDiagnosis::notWanted(Diagnosis& diagnosis, int rank, const Eigen::Isometry3d& T_local_model)

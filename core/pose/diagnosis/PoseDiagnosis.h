@@ -125,8 +125,6 @@ private:
   LossCause causeInScreening(Diagnosis& diagnosis, const Eigen::Isometry3d& T_local_model) const;
   /// Sets what speaks for it and against it, and which other pose is near.
   void explain(Diagnosis& diagnosis, const Eigen::Isometry3d& T_local_model);
-  /// Log odds that the pattern search that moved a pose to where it is took off; 0: none did.
-  double penaltyOf(const Pose& found, const EvidenceCollector& collector) const;
   /// Found as this pose without limits.
   LossCause notWanted(Diagnosis& diagnosis, int rank, const Eigen::Isometry3d& T_local_model);
   /// As the refined poses were verified.

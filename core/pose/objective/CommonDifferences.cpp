@@ -23,9 +23,8 @@ constexpr int DifferentByChance = 1;     // and one more of so many that are tol
 constexpr int ToldOfEachDifferent = 100; // of right parts two of four hundred were, at most
 
 // Beside the part, in diameters
-constexpr double SmearedPixels = 5.0;   // off the part at least: so far sensors carry a face beyond its rim
-constexpr float NearlyFarthest = 0.98f; // that the part's distance field tells
-constexpr float SameFace = 0.01f;       // off a face: on what goes on from it, or so near by the noise,
+constexpr double SmearedPixels = 5.0; // off the part at least: so far sensors carry a face beyond its rim
+constexpr float SameFace = 0.01f;     // off a face: on what goes on from it, or so near by the noise,
 constexpr float MostSameFace = 0.04f; // and no more along the line of sight: else what lies behind may seem to be on it
 constexpr double MostApart = 1.2;     // from middle to middle of a copy that may lie beside
 constexpr float OfBin = 0.03f;        // off the bin's floor or a wall

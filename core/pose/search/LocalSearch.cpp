@@ -189,6 +189,7 @@ LocalSearch::Result LocalSearch::best(Pose pose) const
   const PatternSearch::Result moved =
     this->Settings.maximizes ? this->Pattern.best(T_aligned) : this->Pattern.at(T_aligned);
   pose.T_scene_model = moved.T_scene_model;
+  pose.penalty = moved.penalty;
   if (moved.isMoved)
   {
     pose.fit = fitInPlace(pose, T_aligned, this->InScene, this->Model);

@@ -66,7 +66,8 @@ PatternSearch::Result PatternSearch::best(const Eigen::Isometry3d& T_scene_model
     for (const std::vector<Motion>& motions : this->Orders)
     {
       Result moved = this->at(this->maximum(T_scene_model, motions));
-      moved.logOdds -= this->Settings.penalizes ? Penalty : 0.0;
+      moved.penalty = this->Settings.penalizes ? Penalty : 0.0;
+      moved.logOdds -= moved.penalty;
       moved.isMoved = true;
       if (moved.logOdds > best.logOdds)
       {

@@ -38,6 +38,7 @@ public:
     PoseEvidence evidence; ///< at it
     double logOdds;        ///< less the penalty, where it was moved
     bool isMoved;
+    double penalty = 0.0;
   };
   /// What the scan says of a pose, in the local frame.
   Result at(const Eigen::Isometry3d& T_scene_model) const;
