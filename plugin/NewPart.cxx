@@ -53,7 +53,7 @@ public:
       "answer tells how large each is.");
     this->Solid->setSpecialValueText("all");
     this->CADUnit = this->addUnit("CADUnit", "CAD's unit", "The unit of a mesh. STEP and IGES files tell theirs.");
-    this->Scan = this->addFile("Scan", "Scan", "Scan (*.pcd *.ply *.png *.tif *.tiff *.pgm *.pfm)",
+    this->Scan = this->addFile("Scan", "Scan", "Scan (*.pcd *.ply *.xyz *.csv *.txt *.asc *.pts *.png *.tif *.tiff *.pgm *.pfm)",
       "One scan of the bin: a cloud (PCD, PLY), best organized, or a depth image (PNG, TIFF, PGM, PFM).");
     this->Unit = this->addUnit(
       "Unit", "Scan's unit", "The unit of the cloud's points. A depth image has its own in the calibration.");
@@ -224,10 +224,10 @@ private:
         fail("There is no file " + file + ".");
       }
     }
-    const QString kind = QFileInfo(part.scan).suffix().toLower();
-    if (kind != "pcd" && kind != "ply" && !part.isDepthImage())
+    if (!part.reader())
     {
-      fail(part.scan + " is no scan: choose a PCD, a PLY, or a depth image as PNG, TIFF, PGM or PFM.");
+      fail(part.scan + " is no scan: choose a PCD, a PLY, a text of points (XYZ, CSV, TXT, ASC, PTS), or a depth image as "
+                       "PNG, TIFF, PGM or PFM.");
     }
   }
 

@@ -21,6 +21,16 @@ bool PartFiles::isDepthImage() const
   return QStringList{ "png", "tif", "tiff", "pgm", "pfm" }.contains(QFileInfo(this->scan).suffix().toLower());
 }
 
+const char* PartFiles::reader() const
+{
+  const QString kind = QFileInfo(this->scan).suffix().toLower();
+  return this->isDepthImage()                                           ? "DepthImageReader"
+    : kind == "pcd"                                                     ? "PCDReader"
+    : kind == "ply"                                                     ? "PLYCloudReader"
+    : QStringList{ "xyz", "csv", "txt", "asc", "pts" }.contains(kind) ? "XYZReader"
+                                                                        : nullptr;
+}
+
 QString PartFiles::modelFile() const { return QDir(this->folder).filePath(this->name() + ".meam"); }
 
 QString PartFiles::graspFile() const { return QDir(this->folder).filePath(this->name() + ".grasps.json"); }

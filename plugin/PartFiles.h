@@ -29,6 +29,7 @@ struct PartFiles
   QString name() const;      ///< of the part, as programs may be called
   bool hasSolids() const;    ///< the CAD file: STEP or IGES
   bool isDepthImage() const; ///< the scan
+  const char* reader() const; ///< of the scan, the source's name; null for a file that is none
   QString modelFile() const;
   QString graspFile() const;
 };

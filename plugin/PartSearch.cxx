@@ -166,9 +166,7 @@ public:
 
   pqPipelineSource* openScan(const PartFiles& part)
   {
-    const bool isPLY = part.scan.endsWith(".ply", Qt::CaseInsensitive);
-    const char* reader = part.isDepthImage() ? "DepthImageReader" : isPLY ? "PLYCloudReader" : "PCDReader";
-    pqPipelineSource* scan = this->open(reader, part.scan);
+    pqPipelineSource* scan = this->open(part.reader(), part.scan);
     set(scan, "CameraFile", part.calibration.toStdString().c_str());
     if (!part.isDepthImage())
     {

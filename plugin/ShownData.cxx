@@ -42,7 +42,8 @@ bool isOrganized(vtkPVDataInformation* data)
 bool readsClouds(vtkSMSourceProxy* source)
 {
   const char* name = source->GetVTKClassName();
-  return name && (std::strcmp(name, "vtkMEAMPCDReader") == 0 || std::strcmp(name, "vtkMEAMPLYReader") == 0);
+  const auto isOne = [name](const char* reader) { return std::strcmp(name, reader) == 0; };
+  return name && (isOne("vtkMEAMPCDReader") || isOne("vtkMEAMPLYReader") || isOne("vtkMEAMXYZReader"));
 }
 
 bool comesFromScan(vtkSMSourceProxy* source, unsigned int port)

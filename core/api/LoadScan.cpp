@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/CameraFile.h"
-#include "io/PCDFile.h"
+#include "io/cloud/PCDFile.h"
+#include "io/cloud/XYZFile.h"
 #include "io/PLYFile.h"
 #include "io/parsing/FileBytes.h"
 #include "meam.h"
@@ -30,6 +31,29 @@ Scan scanOf(MeasuredCloud measured)
   return scan;
 }
 
+MeasuredCloud readCloud(const std::string& path)
+{
+  const std::string extension = extensionOf(path);
+  if (extension == ".pcd")
+  {
+    return readPCD(path);
+  }
+  if (extension == ".ply")
+  {
+    return readPLYCloud(path);
+  }
+  for (const char* text : { ".xyz", ".csv", ".txt", ".asc", ".pts" })
+  {
+    if (extension == text)
+    {
+      return readXYZ(path);
+    }
+  }
+  throw Error("The scan '" + path +
+              "' has an extension that is not known: give a .pcd, a .ply or a text of points (.xyz, .csv, .txt, .asc, "
+              ".pts); depth images are read by loadDepthImage().");
+}
+
 void scaleCloud(MeasuredCloud& measured, double scale, const std::string& path)
 {
   if (!(scale > 0.0 && std::isfinite(scale)))
@@ -49,14 +73,7 @@ void scaleCloud(MeasuredCloud& measured, double scale, const std::string& path)
 
 Scan loadScan(const std::string& path, const std::string& cameraFile, double scale)
 {
-  const std::string extension = extensionOf(path);
-  if (extension != ".pcd" && extension != ".ply")
-  {
-    throw Error("The scan '" + path +
-                "' has an extension that is not known: give a .pcd or a .ply; depth images are "
-                "read by loadDepthImage().");
-  }
-  MeasuredCloud measured = extension == ".pcd" ? readPCD(path) : readPLYCloud(path);
+  MeasuredCloud measured = readCloud(path);
   scaleCloud(measured, scale, path);
   return scanOf(cameraFile.empty() ? std::move(measured) : organizeCloud(measured, readCamera(cameraFile).camera));
 }

@@ -210,7 +210,7 @@ public:
       std::error_code error;
       const Time written = entry.last_write_time(error);
       const auto size = entry.file_size(error);
-      if ((extension != ".pcd" && extension != ".ply") || error)
+      if ((extension != ".pcd" && extension != ".ply" && extension != ".xyz") || error)
       {
         continue;
       }

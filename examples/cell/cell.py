@@ -26,7 +26,7 @@ BIN = "detected"    # found in each scan by its rim; "none"; or (T, length, widt
 PROBABILITY = 0.5   # that a copy is there: less likely ones are not picked
 WAY_IN = 80.0       # straight to the grasp, free of everything
 QUIET = 0.2         # seconds: a file is whole when nothing was written to it for so long
-SCANS = (".pcd", ".ply", ".png", ".tif", ".tiff", ".pgm", ".pfm")  # images are depth images, with --camera
+SCANS = (".pcd", ".ply", ".xyz", ".png", ".tif", ".tiff", ".pgm", ".pfm")  # images are depth images, with --camera
 
 
 class Answer:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMEAMPCDReader.h"
 
-#include "io/PCDFile.h"
+#include "io/cloud/PCDFile.h"
 
 #include "vtkObjectFactory.h"
 #include "vtksys/SystemTools.hxx"

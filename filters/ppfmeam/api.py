@@ -258,14 +258,14 @@ def detect(part, scan, image=None, boundary=None, camera=None, image_camera=None
     part: a Model; the file of one; or a CAD as train() takes it, which is trained every time (`cad_scale` brings it to mm). Or
     a list of these, of several types of part: `part` of each pose is its place in the list, and `of(k)` has the poses of one.
     Of poses that claim the same surface the best supported stays; parts that look alike are told apart only together.
-    scan: a file (.pcd, .ply, or a depth image with its `camera`), an array H x W x 3 of points in the sensor's frame (x
+    scan: a file (.pcd, .ply, a text of points, or a depth image with its `camera`), an array H x W x 3 of points in the sensor's frame (x
     right, y down, z the way it looks; NaN: not measured), an array N x 3 with a `boundary`, an array H x W of depths with their
     `camera` (0, NaN, and 65535 of 16 bits: not measured), or VTK's data object. Points are taken in single precision.
     image: a file or an array H x W (grey) or H x W x 3 (colours) of bytes, from the top; where the scan has none. It has a
     pixel for each point, unless `image_camera`, a calibration file, says which other camera took it.
     boundary: edge points, where they are known: a file, an array N x 3, or VTK's data object.
-    camera: the calibration file of the sensor, or of an array of depths its camera matrix, 3 x 3; brings a .ply back onto its
-    pixels. scale: brings lengths to mm.
+    camera: the calibration file of the sensor, or of an array of depths its camera matrix, 3 x 3; brings points alone back
+    onto its pixels. scale: brings lengths to mm.
     region: where parts are looked for: six numbers, from and to along x, y and z of the scan, mm; or a mask, an array H x W of
     flags or an image file of the scan's size that is not black there. Parts whose middle lies elsewhere are not looked for.
     """

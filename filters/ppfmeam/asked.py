@@ -11,13 +11,13 @@ OF_DETECTION = (*(name for name in OF_SEARCH if name not in ("poses", "preset"))
 def add_options(parser):
     parser.add_argument("part", nargs="?", help="CAD file of the part (.step or .iges, or .stl, .obj, .ply or .off in mm), or trained model of `train`; "
                                      "of a BOP dataset also the number of an object")
-    parser.add_argument("scan", help="scan: .pcd, .ply, or a depth image with --camera, in mm; or an image of a BOP dataset, DIR/test/SSSSSS/IIIIII")
+    parser.add_argument("scan", help="scan: .pcd, .ply, .xyz, or a depth image with --camera, in mm; or an image of a BOP dataset, DIR/test/SSSSSS/IIIIII")
     parser.add_argument("--cad", action="append", default=[], metavar="PART", help="in place of PART, once for each type of part in the scan")
     parser.add_argument("--model", action="append", default=[], help="a trained model in place of PART, once for each type of part; its --cad, in the same order, has the faces that are shown and held")
     choices.add_options(parser, "train", "offset", "scale")
     choices.add_options(parser, "read", "solid")
     parser.add_argument("--scale", "--scene-scale", type=choices.factor, default=1, metavar="F", help="factor that brings the scan and the boundary to mm (default: %(default)s)")
-    parser.add_argument("--camera", metavar="FILE", help="calibration of the sensor, of a depth image or a .ply scan")
+    parser.add_argument("--camera", metavar="FILE", help="calibration of the sensor, of a depth image or a cloud")
     parser.add_argument("--depth-scale", type=choices.factor, metavar="F",
                         help="mm that 1 in a depth image stands for (default: depth_scale of the calibration, or 1)")
     parser.add_argument("--boundary", metavar="CLOUD", help="the scan's edge points, instead of those of its image")

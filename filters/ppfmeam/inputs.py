@@ -144,12 +144,12 @@ def cloud_of(scan, camera, scale):
     extension = os.path.splitext(path)[1].lower()
     if extension in scripting.DEPTH_IMAGES and camera is None:
         raise Error(f"{path}: a depth image needs the calibration of its camera")
-    if camera is not None and extension not in (".pcd", ".ply", *scripting.DEPTH_IMAGES):
-        raise Error(f"{path}: only a .pcd or .ply cloud is organized with the camera of the sensor")
+    if camera is not None and extension not in (*scripting.CLOUDS, *scripting.DEPTH_IMAGES):
+        raise Error(f"{path}: only a cloud ({', '.join(scripting.CLOUDS)}) is organized with the camera of the sensor")
     path_of(path)
     if extension in scripting.DEPTH_IMAGES:
         return _core.load_depth_image(path, path_of(camera), scale)
-    if extension in (".pcd", ".ply"):
+    if extension in scripting.CLOUDS:
         return _core.load_scan(path, "" if camera is None else path_of(camera), scale)
     return _core.Scan(scaled(_core.load_cad(mesh_file(path, scripting.SCANS)).vertices, scale, "scan"))
 

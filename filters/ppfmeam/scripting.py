@@ -25,9 +25,11 @@ from vtkmodules.vtkIOXML import vtkXMLPartitionedDataSetCollectionReader
 from . import Error as Failure
 from . import choices, filters
 
-EXTENSIONS = (".pcd", ".off", ".ply", ".stl", ".obj", ".step", ".stp", ".iges", ".igs")
-MESHES = EXTENSIONS[1:]
-SCANS = (".pcd", ".ply", ".stl", ".obj", ".off")
+TEXTS = (".xyz", ".csv", ".txt", ".asc", ".pts")  # with a point in each line
+CLOUDS = (".pcd", ".ply", *TEXTS)
+MESHES = (".off", ".ply", ".stl", ".obj", ".step", ".stp", ".iges", ".igs")
+EXTENSIONS = (".pcd", *MESHES, *TEXTS)
+SCANS = (*CLOUDS, ".stl", ".obj", ".off")
 MODELS = (".meam", ".vtpc")
 DEPTH_IMAGES = (".png", ".tif", ".tiff", ".pgm", ".pfm", ".exr")  # their reader says what to do with the last
 AS_GOOD = 0.02  # share of the surface that near-symmetries may differ by and count as equally near
@@ -351,14 +353,19 @@ def read(path, scale=1.0, solid=0, known=EXTENSIONS):
     what a message names."""
     extension = os.path.splitext(path)[1].lower()
     require_kind(path, extension in EXTENSIONS, known)
-    reader = filters.vtkMEAMMeshReader()
-    reader.SetSolid(solid)
-    if extension == ".pcd":
-        reader = filters.vtkMEAMPCDReader()
-    elif extension == ".ply" and filters.vtkMEAMPLYReader().CanReadFile(path):  # without faces
-        reader = filters.vtkMEAMPLYReader()
+    if extension in CLOUDS and (extension != ".ply" or filters.vtkMEAMPLYReader().CanReadFile(path)):  # without faces
+        reader = cloud_reader(extension)
+    else:
+        reader = filters.vtkMEAMMeshReader()
+        reader.SetSolid(solid)
     data = read_with(reader, path)
     return scaled(data, scale, path)
+
+
+def cloud_reader(extension):
+    """The reader of a file of CLOUDS."""
+    readers = {".pcd": filters.vtkMEAMPCDReader, ".ply": filters.vtkMEAMPLYReader}
+    return readers.get(extension, filters.vtkMEAMXYZReader)()
 
 
 def require_kind(path, is_known, known):
@@ -411,19 +418,19 @@ def read_image(path):
 
 
 def read_scan(path, scale=1.0, camera=None):
-    """The cloud in a .pcd or .ply file, or the points of a mesh, in mm; with its camera's calibration (a file) points that
+    """The cloud in a file of CLOUDS, or the points of a mesh, in mm; with its camera's calibration (a file) points that
     are not organized come back onto the camera's pixels."""
     extension = os.path.splitext(path)[1].lower()
-    if camera and extension not in (".pcd", ".ply"):
-        raise Failure(f"{path}: only a .pcd or .ply cloud is organized with the camera of the sensor")
+    if camera and extension not in CLOUDS:
+        raise Failure(f"{path}: only a cloud ({', '.join(CLOUDS)}) is organized with the camera of the sensor")
     if extension in DEPTH_IMAGES:
         raise Failure(f"{path} is an image: give a depth image with --depth and its --camera, and the scan's image with --image")
-    if extension not in (".pcd", ".ply"):
+    if extension not in CLOUDS:
         require_kind(path, extension in SCANS, SCANS)
         return read(path, scale)
     if not 0 < scale < float("inf"):
         raise Failure(f"{path}: the scale has to be a positive number, not {scale}")
-    reader = filters.vtkMEAMPLYReader() if extension == ".ply" else filters.vtkMEAMPCDReader()
+    reader = cloud_reader(extension)
     reader.SetScale(scale)
     reader.SetCameraFile(camera)
     return read_with(reader, path)

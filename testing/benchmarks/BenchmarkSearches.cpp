@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BenchmarkScene.h"
 #include "base/sequences/Sequences.h"
-#include "io/PCDFile.h"
+#include "io/cloud/PCDFile.h"
 #include "mesh/TriangleMesh.h"
 #include "mesh/preparation/MeshPreparation.h"
 

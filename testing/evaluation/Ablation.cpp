@@ -5,7 +5,7 @@
 #include "baselines/BaselineSettings.h"
 #include "evaluation/PoseEvaluation.h"
 #include "io/MeshFile.h"
-#include "io/PCDFile.h"
+#include "io/cloud/PCDFile.h"
 #include "io/PoseFile.h"
 #include "mesh/ConvexHull.h"
 #include "mesh/preparation/MeshPreparation.h"

@@ -10,7 +10,8 @@
 #include "io/ImageFile.h"
 #include "io/MeshFile.h"
 #include "io/ModelsInfo.h"
-#include "io/PCDFile.h"
+#include "io/cloud/PCDFile.h"
+#include "io/cloud/XYZFile.h"
 #include "io/PLYFile.h"
 #include "io/PoseFile.h"
 #include "io/cad/CADFile.h"
@@ -77,15 +78,28 @@ void readPCD(const std::string& path)
   require(data.cloud.width == width && data.cloud.height == height, "another size than the header's");
 }
 
-void readPLYCloud(const std::string& path)
+/// A cloud that is not organized comes onto the pixels of a camera.
+void organize(const meam::MeasuredCloud& measured)
 {
-  meam::isPLYCloud(path);
-  const meam::MeasuredCloud measured = meam::readPLYCloud(path);
   requireArrays(measured);
   meam::Camera camera = smallCamera();
   camera.width = 32;
   camera.height = 24;
   requireArrays(meam::organizeCloud(measured, camera));
+}
+
+void readPLYCloud(const std::string& path)
+{
+  meam::isPLYCloud(path);
+  organize(meam::readPLYCloud(path));
+}
+
+void readXYZ(const std::string& path)
+{
+  const bool isXYZ = meam::isXYZ(path);
+  const meam::MeasuredCloud measured = meam::readXYZ(path);
+  require(isXYZ, "points in a file that does not begin with them");
+  organize(measured);
 }
 
 void readCamera(const std::string& path) { require(meam::readCamera(path).camera.fx > 0.0, "no focal length"); }
@@ -137,6 +151,8 @@ void readHandEye(const std::string& path) { meam::readHandEye(path); }
 // What a byte of a packed file may stand for: 88 in a PCD file, whose smallest points are three bytes and become 12 and
 // more; pixels of an image, as readImage() has it, which are decoded into 8 bytes and converted.
 constexpr std::size_t Unpacked = 500, Pixels = 4096 * 24;
+// A byte of a text of points: a comma stands for a number, and two for a point, in arrays that grow twofold.
+constexpr std::size_t Words = 60;
 // What a byte of JSON may become: empty lists and objects are three bytes with their comma, and in memory a hundred.
 constexpr std::size_t JSON = 40;
 // MB of the distance fields of a trained model, however short its file is.
@@ -158,6 +174,7 @@ const std::vector<Reader>& readers()
     { "iges", "a.igs", readMesh, Usual, OpenCascade, nullptr, Processes },
     { "pcd", "a.pcd", readPCD, Unpacked },
     { "ply-cloud", "a.ply", readPLYCloud },
+    { "xyz", "a.xyz", readXYZ, Words },
     { "camera", "camera.yaml", readCamera, JSON },
     { "depth-image", "depth.png", readDepth, Pixels, UsualMB, withPNGCheckSums },
     { "image", "image.png", readImage, Pixels, UsualMB, withPNGCheckSums },

@@ -80,7 +80,9 @@ writer = vtkPNGWriter()
 writer.SetFileName(path("depth.png"))
 writer.SetInputData(depth)
 writer.Write()
-FILES = {"PLYCloudReader": "cloud.ply", "PCDReader": "cloud.pcd", "DepthImageReader": "depth.png"}
+with open(path("cloud.asc"), "w") as file:
+    file.write("X;Y;Z\n0;0;100\n10,0;0;100\n")
+FILES = {"XYZReader": "cloud.asc", "PLYCloudReader": "cloud.ply", "PCDReader": "cloud.pcd", "DepthImageReader": "depth.png"}
 
 
 def readers_of_several_files():

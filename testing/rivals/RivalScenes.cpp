@@ -5,7 +5,7 @@
 #include "base/sequences/Sequences.h"
 #include "features/NormalEstimation.h"
 #include "io/MeshFile.h"
-#include "io/PCDFile.h"
+#include "io/cloud/PCDFile.h"
 #include "mesh/ConvexHull.h"
 #include "mesh/SurfaceSampling.h"
 #include "mesh/preparation/MeshPreparation.h"

@@ -4,7 +4,7 @@ import os
 
 from .. import dataset, scripting
 
-CLOUDS = (".pcd", ".ply")
+CLOUDS = (".pcd", ".ply", ".xyz", ".asc", ".pts")  # .csv and .txt in a folder may be anything
 
 
 class Scan:
@@ -46,7 +46,7 @@ class Folder(Files):
         folder = self.options.scans
         rows = [(name, os.path.join(folder, name), "") for name in sorted(os.listdir(folder)) if self.is_scan(name)]
         if not rows:
-            raise scripting.Failure(f"{folder} has no scans: .pcd, .ply or, with --camera and --no-image, depth images, or "
+            raise scripting.Failure(f"{folder} has no scans: {', '.join(CLOUDS)} or, with --camera and --no-image, depth images, or "
                                     f"{self.options.split}/ of a BOP dataset")
         return rows
 

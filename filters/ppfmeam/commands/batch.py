@@ -20,7 +20,7 @@ def options_of_user(arguments=None):
     """Of the command line, or of these words."""
     parser = scripting.Parser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("scans", metavar="SCANS", nargs="?",
-                        help="a dataset in the form of the BOP benchmark; a folder of scans (.pcd, .ply or, with "
+                        help="a dataset in the form of the BOP benchmark; a folder of scans (.pcd, .ply, .xyz or, with "
                              "--camera and --no-image, depth images); or a text file with a scan in each line, after a tab its image "
                              "where it carries none")
     parser.add_argument("--watch", metavar="FOLDER",
@@ -39,7 +39,7 @@ def options_of_user(arguments=None):
     choices.add_options(parser, "train", "scale")
     choices.add_options(parser, "read", "solid")
     parser.add_argument("--split", default="test", help="folder of a BOP dataset's scenes (default: %(default)s)")
-    parser.add_argument("--camera", metavar="FILE", help="calibration of the sensor, of depth images and of .ply scans")
+    parser.add_argument("--camera", metavar="FILE", help="calibration of the sensor, of depth images and of clouds")
     parser.add_argument("--depth-scale", type=choices.factor, metavar="F",
                         help="mm that 1 in a depth image stands for (default: depth_scale of the calibration, or 1)")
     parser.add_argument("--scene-scale", type=choices.factor, default=1, metavar="F",

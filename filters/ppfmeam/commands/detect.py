@@ -21,7 +21,8 @@ def options_of_user():
                              "--picture and --report")
     scan = parser.add_mutually_exclusive_group(required=True)
     scan.add_argument("--scene", metavar="CLOUD",
-                      help="scan: .pcd or .ply, organized or points alone, in mm; or the points of a .stl or .obj")
+                      help="scan: .pcd, .ply or a text of points (.xyz, .csv, .txt, .asc, .pts), organized or points alone, in mm; "
+                           "or the points of a .stl or .obj")
     scan.add_argument("--depth", metavar="FILE",
                       help="scan: a depth image of 16 bits (.png, .tif or .pgm), or of real numbers (.tif or .pfm), with --camera")
     parser.add_argument("--camera", metavar="FILE",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "io/PCDFile.h"
+#include "io/cloud/PCDFile.h"
 
 #include "io/parsing/FileBytes.h"
 #include "io/parsing/TextLines.h"

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "TestFiles.h"
+#include "io/cloud/XYZFile.h"
+
+namespace
+{
+const files::Reader readXYZ{ [](const std::string& path) { return meam::readXYZ(path); } };
+using Colors = std::vector<std::uint8_t>;
+
+void expectPoint(const meam::MeasuredCloud& data, int index, float x, float y, float z)
+{
+  ASSERT_LT(index, static_cast<int>(data.cloud.size()));
+  EXPECT_EQ(data.cloud.points[index], Eigen::Vector3f(x, y, z));
+}
+}
+
+TEST(XYZFile, whatStandsBetweenNumbers)
+{
+  for (const char* text : { "1 2.5 3\n-4 5 6e1\n", "1,2.5,3\r\n-4,5,6e1", "1, 2.5, 3\n-4, 5, 6e1,\n",
+         "1;2,5;3\n-4;5;6e1\n", "1\t2,5\t3\n\n-4\t5\t60\n", "  1   2,5 \t 3\n  -4 5 60 \x1a", "2\n1 2.5 3\n-4 5 60",
+         "\xef\xbb\xbf"
+         "1;2.5;3;\n-4;5;+60;" })
+  {
+    const meam::MeasuredCloud data = readXYZ(text);
+    ASSERT_EQ(data.cloud.size(), 2u) << text;
+    EXPECT_EQ(data.cloud.height, 1);
+    expectPoint(data, 0, 1, 2.5f, 3);
+    expectPoint(data, 1, -4, 5, 60);
+    EXPECT_TRUE(data.colors.empty() && data.normals.empty() && data.intensities.empty()) << text;
+  }
+}
+
+TEST(XYZFile, columnsByTheirNames)
+{
+  const Colors color{ 7, 8, 9 };
+  for (const char* text :
+    { "//X Y Z R G B Nx Ny Nz\n1\n1 2 3 7 8 9 0 0 1\n", "# x y z red green blue nx ny nz\n1 2 3 7 8 9 0 0 1",
+      "\"Points:0\",\"Points:1\",\"Points:2\",\"RGB:0\",\"RGB:1\",\"RGB:2\",\"Normals:0\",\"Normals:1\",\"Normals:2\"\n"
+      "1,2,3,7,8,9,0,0,1\n",
+      "id;X (mm);Y [mm];Z;nx;ny;nz;r;g;b;time;a;b;c\n0;1,0;2,0;3,0;0;0;1;7;8;9;0;0;0;0" })
+  {
+    const meam::MeasuredCloud data = readXYZ(text);
+    expectPoint(data, 0, 1, 2, 3);
+    EXPECT_EQ(data.colors, color) << text;
+    ASSERT_EQ(data.normals.size(), 1u) << text;
+    EXPECT_EQ(data.normals[0], Eigen::Vector3f(0, 0, 1)) << text;
+  }
+  EXPECT_EQ(readXYZ("z y x intensity\n3 2 1 0.5").cloud.points[0], Eigen::Vector3f(1, 2, 3)) << "in any order";
+  EXPECT_EQ(readXYZ("z y x intensity\n3 2 1 0.5").intensities, std::vector<float>{ 0.5f });
+}
+
+TEST(XYZFile, columnsWithoutNames)
+{
+  EXPECT_EQ(readXYZ("1 2 3 0.5\n").intensities, std::vector<float>{ 0.5f });
+  EXPECT_EQ(readXYZ("1 2 3 7 8 9\n").colors, (Colors{ 7, 8, 9 }));
+  EXPECT_EQ(readXYZ("1 2 3 0.2 0.4 1\n").colors, (Colors{ 51, 102, 255 }));
+  const meam::MeasuredCloud normal = readXYZ("1 2 3 0.6 -0.8 0\n1 2 3 nan nan nan\n");
+  EXPECT_TRUE(normal.colors.empty());
+  EXPECT_EQ(normal.normals[0], Eigen::Vector3f(0.6f, -0.8f, 0));
+  EXPECT_EQ(readXYZ("1 2 3 -700 7 8 9\n").colors, (Colors{ 7, 8, 9 })) << "behind an intensity";
+  const meam::MeasuredCloud all = readXYZ("1 2 3 7 8 9 0 0 -1\n4 5 6 10 11 12 0 1 0\n");
+  EXPECT_EQ(all.colors, (Colors{ 7, 8, 9, 10, 11, 12 }));
+  EXPECT_EQ(all.normals[1], Eigen::Vector3f(0, 1, 0));
+  EXPECT_TRUE(readXYZ("1 2 3 5.5 -3 7\n").colors.empty()) << "of no known kind";
+}
+
+TEST(XYZFile, whatWasNotMeasuredIsNaN)
+{
+  const meam::MeasuredCloud data = readXYZ("x,y,z\n,,\nnan,NaN,-\n1,2,3\n1.#QNAN,2,3\nnull,2,3\n");
+  ASSERT_EQ(data.cloud.size(), 5u) << "a line of the grid each";
+  for (const int i : { 0, 1, 3, 4 })
+  {
+    EXPECT_FALSE(data.cloud.points[i].allFinite()) << i;
+  }
+  expectPoint(data, 2, 1, 2, 3);
+}
+
+TEST(XYZFile, whatIsNoTextOfPoints)
+{
+  readXYZ.fails("", "no line");
+  readXYZ.fails("# nothing\n", "no line");
+  readXYZ.fails("1 2\n", "'1 2' where a point's");
+  readXYZ.fails("time,value,size\n1,2,3\n", "name x, y and z among them");
+  readXYZ.fails("first\nsecond\n1 2 3\n", "'first'");
+  readXYZ.fails("x y z\n1 2 3\n4 5\n", "line 3 has 2 numbers, where the first point has 3");
+  readXYZ.fails("1 2 3\r\n4 5 6\r\n4 b 6\r\n", "line 3 has 'b'");
+  readXYZ.fails("3\n1 2 3\n4 5 6\n", "promises 3 points and has 2");
+  readXYZ.fails("1 2 3 4 5 6 7 8 9 10 11\n", "has 11 numbers: name the columns");
+}
+
+TEST(XYZFile, isToldByItsBeginning)
+{
+  const files::Folder folder;
+  EXPECT_TRUE(meam::isXYZ(folder.write("a.csv", "x,y,z\n1,2,3\n")));
+  EXPECT_FALSE(meam::isXYZ(folder.write("b.csv", "scene_id,im_id,obj_id,score,R,t,time\n1,2,3,0.5,1 0 0,1 2 3,-1\n")));
+  EXPECT_FALSE(meam::isXYZ("/no/such/file.xyz"));
+}
