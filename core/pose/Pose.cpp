@@ -61,7 +61,7 @@ Poses toLocalFrame(const Poses& poses, const Eigen::Isometry3d& T_local_scene, c
   {
     if (!pose.T_scene_model.matrix().allFinite())
     {
-      throw Error("Pose " + std::to_string(result.size()) + " has numbers that are not finite.");
+      throw Error("Pose " + std::to_string(result.size() + 1) + " has numbers that are not finite.");
     }
     result.push_back(leastTurned(moved(pose, T_local_scene), symmetries));
   }

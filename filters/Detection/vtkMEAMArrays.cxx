@@ -132,7 +132,7 @@ int wholeIn(vtkDataArray* array, vtkIdType place)
   {
     std::ostringstream words;
     words << "Value " << place + 1 << " of the array " << quoted(array->GetName())
-          << " is not a whole number: " << value << ".";
+          << " has to be a whole number of up to " << VTK_INT_MAX << ", not " << value << ".";
     throw Error(words.str());
   }
   return static_cast<int>(value);

@@ -60,7 +60,7 @@ meam::Poses toPoses(vtkPolyData* input)
     if (!matrix.allFinite() || !matrix.row(3).isApprox(Eigen::RowVector4d(0, 0, 0, 1), 1e-6) ||
         !(rotation.transpose() * rotation).isIdentity(1e-3) || rotation.determinant() < 0.0)
     {
-      throw Error("Pose " + std::to_string(i) +
+      throw Error("Pose " + std::to_string(i + 1) +
                   " is not a rotation and a translation: 'Transform' has to be 4 x 4, "
                   "row by row, with the last row 0 0 0 1.");
     }
@@ -100,8 +100,8 @@ meam::Poses toPoses(vtkPolyData* input)
       }
       else if (!mayLack)
       {
-        throw Error("Pose " + std::to_string(i) + " has a " + quoted(name) +
-                    " that is not a number: give it one, or take it out.");
+        throw Error("Pose " + std::to_string(i + 1) + " has a " + quoted(name) +
+                    " that is not a number: give it one, take the pose out, or that array of all poses.");
       }
     }
   };

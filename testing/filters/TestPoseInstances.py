@@ -99,8 +99,8 @@ fails(connect(vtkMEAMPoseInstances(), poses((float("nan"),) * 16), part), "not a
 fails(connect(vtkMEAMPoseInstances(), found))
 
 # A number that is none is no 0; only what a pose file does not have to know of all its poses may lack.
-for name, value, *words in (("Evidence", float("nan"), "Pose 1 has a 'Evidence' that is not a number"), ("Score", float("nan"), "'Score'"),
-                            ("Votes", float("nan"), "Value 2 of the array 'Votes'", "whole"), ("Rank", 1.5, "'Rank'", "1.5"),
+for name, value, *words in (("Evidence", float("nan"), "Pose 2 has a 'Evidence' that is not a number"), ("Score", float("nan"), "'Score'", "take the pose out"),
+                            ("Votes", float("nan"), "Value 2 of the array 'Votes'", "whole"), ("Votes", 3e9, "up to 2147483647, not 3e+09"), ("Rank", 1.5, "'Rank'", "1.5"),
                             ("PartId", float("nan"), "'PartId'", "whole"), ("Certainty", float("nan"))):
     lacking = poses(at(10), at(20))
     lacking.GetPointData().AddArray(cloud([(0, 0, 0)] * 2, **{name: [1, value]}).GetPointData().GetArray(name))

@@ -63,7 +63,7 @@ for method in (0, 1):
     check(mm < 1e-3 and degrees < 1e-3, f"method {method} moved a lost pose by {mm} mm, {degrees} degrees")
 check(is_empty(run(refinement(vtkPolyData()))), "no poses, no error")
 
-fails(refinement(poses(tuple(2 * c for c in scene.transform))), "pose 0", "rotation")
+fails(refinement(poses(tuple(2 * c for c in scene.transform))), "pose 1", "rotation")
 fails(refinement(cloud([(0, 0, 0)])), "Transform")
 fails(refinement(start, edges=vtkPolyData()), "no points")
 fails(refinement(start, edges=scene.edges), "Tangent")

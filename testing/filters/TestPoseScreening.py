@@ -37,6 +37,6 @@ for threads in (1, 2):
     check(kept(candidates, NumberOfThreads=threads) == kept(candidates), f"{threads} threads")
 check(is_empty(run(screening(vtkPolyData()))), "no poses, no error")
 
-fails(screening(poses(shifted(math.nan))), "pose 0")
+fails(screening(poses(shifted(math.nan))), "pose 1")
 fails(screening(cloud([(0, 0, 0)])), "Transform")
 fails(screening(image()), "vtkPolyData")

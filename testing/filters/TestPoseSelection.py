@@ -51,6 +51,6 @@ for threads in (1, 2):
           f"{threads} threads")
 check(is_empty(run(selection(vtkPolyData()))), "no poses, no error")
 
-fails(connect(vtkMEAMPoseSelection(), poses(shifted(math.nan)), model, edges), "pose 0")
+fails(connect(vtkMEAMPoseSelection(), poses(shifted(math.nan)), model, edges), "pose 1")
 fails(connect(vtkMEAMPoseSelection(), cloud([(0, 0, 0)]), model, edges), "Transform")
 fails(connect(vtkMEAMPoseSelection(), image(), model, edges), "vtkPolyData")
