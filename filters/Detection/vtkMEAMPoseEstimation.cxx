@@ -201,8 +201,8 @@ int vtkMEAMPoseEstimation::RequestData(
           shapes, partPoses, [](std::size_t k) { return static_cast<int>(k) + 1; }, drawn, {}, parts);
         setParts(partPoses, models, output);
         output->GetPointData()->SetActiveScalars("PartId"); // as the parts that are drawn
-        output->GetFieldData()->AddArray(arrayOf<vtkStringArray>("PartName", work.names));
       }
+      output->GetFieldData()->AddArray(arrayOf<vtkStringArray>("PartName", work.names));
       setFieldText(output, "Report", meam::untoldLengths(partPoses, meam::describe(poses), work.names));
       setScanQuality(output, scene.quality, work.scan.report);
       setFieldValue(output, "IsCutShort", report.isCutShort ? 1.0 : 0.0);

@@ -28,19 +28,19 @@
  * `SecondsTangents`, `SecondsDetection`, `SecondsScreening`, `SecondsVerification`, `SecondsRefinement`,
  * `SecondsSelection`, `SecondsOutput` (to fill the outputs), which add up to `SecondsTotal`, and the counts
  * `ScenePoints`, `SceneEdgePoints` and `ModelEdgePoints`; what the stages had to do, the same on any machine:
- * `WorkReferences` (points that voted), `WorkScreened` (candidates), `WorkVerified`, `WorkRefined`, `WorkSelected`. Of
- * several types of part the point array `PartId` (index of the connection), the field data `PartName` and `Diameter`
- * with a value for each, labels with the name of the part (its field data `Name`, which readers set), no `PartBounds`,
- * and port 2 with the array `PartId` (active scalars). Output port 1: the scene's edge points as extracted, a
- * vtkPolyData; with `EdgeSource`, and of the preset Recommended `Tangent`, unless they came in, and `Rank` (active
- * scalars): of the first pose that has an edge of the part there, 0 of edge points that no pose explains. Output port
- * 2: the part at each pose that is likely enough to be shown (ShownProbability), as vtkMEAMPoseInstances has it; of a
- * trained model points of its surface. Output port 3: a vtkTable with a row for each pose, to plot: `Pose` (its rank),
- * `PlaceProbability`, `Probability`, `Score`, `VisibleFraction`, `Certainty`. Output port 4: a vtkTable with a row for
- * each stage: `Stage`, `Seconds`. Output port 5: a vtkTable with one row, `Text`: that no part was found, or how many
- * poses are not shown, and what to change first in the scan or the settings (the field data `Advice` of the poses), to
- * show in a view; empty when all are shown and nothing stands out. Output port 6: the trained model as vtkMEAMHashing
- * returns it, to be saved; empty of several types of part.
+ * `WorkReferences` (points that voted), `WorkScreened` (candidates), `WorkVerified`, `WorkRefined`, `WorkSelected`;
+ * `PartName`, of the part (its field data `Name`, which readers set, or its file's). Of several types of part the point
+ * array `PartId` (index of the connection), `PartName` and `Diameter` with a value for each, labels with the name, no
+ * `PartBounds`, and port 2 with the array `PartId` (active scalars). Output port 1: the scene's edge points as
+ * extracted, a vtkPolyData; with `EdgeSource`, and of the preset Recommended `Tangent`, unless they came in, and `Rank`
+ * (active scalars): of the first pose that has an edge of the part there, 0 of edge points that no pose explains.
+ * Output port 2: the part at each pose that is likely enough to be shown (ShownProbability), as vtkMEAMPoseInstances
+ * has it; of a trained model points of its surface. Output port 3: a vtkTable with a row for each pose, to plot: `Pose`
+ * (its rank), `PlaceProbability`, `Probability`, `Score`, `VisibleFraction`, `Certainty`. Output port 4: a vtkTable
+ * with a row for each stage: `Stage`, `Seconds`. Output port 5: a vtkTable with one row, `Text`: that no part was
+ * found, or how many poses are not shown, and what to change first in the scan or the settings (the field data `Advice`
+ * of the poses), to show in a view; empty when all are shown and nothing stands out. Output port 6: the trained model
+ * as vtkMEAMHashing returns it, to be saved; empty of several types of part.
  */
 #ifndef vtkMEAMPoseEstimation_h
 #define vtkMEAMPoseEstimation_h

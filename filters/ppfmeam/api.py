@@ -53,7 +53,7 @@ class Model:
 
     @property
     def name(self):
-        return os.path.basename(self.file) if self.file else "a part"
+        return scripting.part_names([self.file])[0] if self.file else "a part"
 
     @property
     def shape(self):

@@ -504,6 +504,12 @@ def require_room(folder, data, path):
         os.posix_fallocate(file.fileno(), 0, 2048 * (data.GetActualMemorySize() + 1))  # KiB; a text is a third longer
 
 
+def part_names(files):
+    """Of parts in files, as the labels of poses have them (vtkMEAMPartNames.h)."""
+    stems = [os.path.splitext(os.path.basename(os.fspath(file)))[0] for file in files]
+    return [f"{stem} {k + 1}" if stem in stems[:k] else stem for k, stem in enumerate(stems)]
+
+
 def require_model_name(path):
     """Raises a Failure when a trained model cannot have that name: before any work is done."""
     if os.path.splitext(path)[1] not in (".meam", ".vtpc"):

@@ -29,7 +29,7 @@ with tempfile.TemporaryDirectory() as tempfile.tempdir:
         exec(compile(ast.Module(body, []), "detect.ipynb", "exec"), names)
         value = eval(compile(ast.Expression(last.value), "detect.ipynb", "eval"), names) if last else None
         shown.append(value._repr_html_() if hasattr(value, "_repr_html_") else repr(value))
-    check(shown[0].startswith("<ppfmeam.Model of handle.stl, "), shown[0])
+    check(shown[0].startswith("<ppfmeam.Model of handle, "), shown[0])
     count = len(names["found"])
     check(count > 5 and shown[2].count("<path data-rank") == shown[2].count("<tr data-rank") == count, f"{count} outlines and rows")
     check(len(opened) == 1 and os.path.getsize(opened[0][len("file://"):]) > 1e6, f"a page is opened: {opened}")

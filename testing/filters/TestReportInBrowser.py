@@ -109,7 +109,7 @@ try:
     # The scan tells the place, and what to ask there.
     click(driver, space, lambda red, green, blue: (abs(red - green) < 8) & (abs(blue - green) < 8) & (red > 60))
     detail = driver.find_element(By.ID, "detail").text
-    check(detail.startswith("Place ") and "ppfmeam.why(model, scan, at=(" in detail, detail)
+    check(detail.startswith("Place ") and "ppfmeam.why(model, scan, poses=2, at=(" in detail, detail)
     check(not driver.get_log("browser"), "no error")
 finally:
     driver.quit()

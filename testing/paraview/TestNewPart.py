@@ -61,7 +61,7 @@ def search_points_alone(paraview, folder):
                             *files("actionFileSaveData", "FileSaveDialog", f"{folder}/alone.html")])
     with open(os.path.join(folder, "alone.html")) as file:
         text = file.read()
-    check("<title>part.stl in alone.pcd</title>" in text and "<tr data-rank" in text, text[:400])
+    check("<title>part in alone.pcd</title>" in text and "<tr data-rank" in text, text[:400])
 
 
 def look_at_programs(folder):

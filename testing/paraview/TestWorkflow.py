@@ -134,7 +134,7 @@ def look(folder):
         poses = json.load(file)["poses"]
     with open(os.path.join(folder, "found.html")) as file:
         page = file.read()
-    check("<title>part.stl in scan.pcd</title>" in page and page.count("<tr data-rank") == len(poses), page[:400])
+    check("<title>part in scan.pcd</title>" in page and page.count("<tr data-rank") == len(poses), page[:400])
     check(len(poses) == picks.GetRange()[1] >= 2, f"{len(poses)} poses are saved, picks are of {picks.GetRange()[1]}")
 
 

@@ -33,9 +33,9 @@ class Pages:
 
     def __init__(self, options, parts, models):
         self.options, self.parts, self.models = options, [], models
-        for path, is_mesh in parts if options.report else ():
+        for (path, is_mesh), name in zip(parts, scripting.part_names(path for path, _ in parts)) if options.report else ():
             shape = scripting.read_mesh(path, scale=options.cad_scale, solid=options.solid) if is_mesh else scripting.shape_of(scripting.read_model(path))
-            self.parts.append(Part(os.path.basename(path), shape))
+            self.parts.append(Part(name, shape))
 
     def write(self, name, scan, poses):
         """That of a scan (scans.Scan)."""

@@ -26,7 +26,7 @@ class Told:
     def of_command(cls, options, poses, parts, data):
         """Of the options of `detect`, the poses, the parts and the scan, its edge points and its image."""
         scan, files = options.scene or options.depth, options.cad or options.model
-        return cls([os.path.basename(file) for file in files], os.path.basename(scan), facts(poses), advice(poses), stages(poses),
+        return cls(scripting.part_names(files), os.path.basename(scan), facts(poses), advice(poses), stages(poses),
                    settings(options), shlex.join(["ppfmeam", "detect", *sys.argv[1:]]),
                    why_command(options, scan, options.image, options.boundary),
                    reasons(poses, parts, data, set_up_by(options, options.image_camera)))
@@ -58,9 +58,8 @@ class Told:
                    [sentences(diagnosis)] * (diagnosis.pose is not None), diagnosis)
 
     @classmethod
-    def of_filter(cls, found, names, scan, poses, parts, data):
-        """Of a vtkMEAMPoseEstimation, the names of the parts and of the scan, the poses, the parts and the scan, its edge points and its
-        image."""
+    def of_filter(cls, found, scan, poses, parts, data):
+        """Of a vtkMEAMPoseEstimation, the name of the scan, the poses, the parts and the scan, its edge points and its image."""
         def chosen(choice):
             value = getattr(found, "Get" + choice["property"])()
             return list(choice["values"])[value] if choice["type"] == "choice" else value
@@ -70,6 +69,8 @@ class Told:
                 getattr(diagnosis, "Set" + property)(getattr(found, "Get" + property)())
 
         settings = choices.Chosen("detect", {name: chosen(choice) for name, choice in choices.TABLE["detect"].items()}).differing()
+        names = poses.GetFieldData().GetAbstractArray("PartName")
+        names = [names.GetValue(k) for k in range(names.GetNumberOfValues())]
         return cls(names, scan, facts(poses), advice(poses), stages(poses), settings, "MEAM Pose Estimation, in ParaView", "",
                    reasons(poses, parts, data, set_up))
 
@@ -96,7 +97,7 @@ def is_given(value):
 
 def names_of(parts):
     """Of the parts of `why`: files, or numbers of objects."""
-    return [f"object {part}" if part.isdecimal() else os.path.basename(part) for part in parts]
+    return [f"object {part}" if part.isdecimal() else name for part, name in zip(parts, scripting.part_names(parts))]
 
 
 def sentences(why):

@@ -45,17 +45,16 @@ def write(algorithm, path):
     data = [[found.GetInputDataObject(port, k) for k in range(found.GetNumberOfInputConnections(port))] for port in range(4)]
     parts, (scan,), boundary, image = data[0], data[1], *((given or [None])[0] for given in data[2:])
     poses, camera = found.GetOutputDataObject(0), found.GetCameraFile() if image else None
-    names = [name_of(found.GetInputAlgorithm(0, k), f"part {k + 1}") for k in range(len(parts))]
-    told = Told.of_filter(found, names, name_of(found.GetInputAlgorithm(1, 0), "a scan"), poses, parts, (scan, boundary, image))
+    told = Told.of_filter(found, name_of(found.GetInputAlgorithm(1, 0)), poses, parts, (scan, boundary, image))
     shown = [Part(name, shape_of(part, found)) for name, part in zip(told.names, parts)]
     page.write(path, page.html(inputs.scan_of(scan, image=image, image_camera=camera), poses, shown, told))
 
 
-def name_of(source, otherwise):
-    """Of the file or folder that data come from."""
+def name_of(source):
+    """Of the file or folder that a scan comes from."""
     readers = [getattr(filter, "GetCurrentFileName", None) or getattr(filter, "GetFileName", None) for filter in scripting.upstream(source)]
     paths = filter(None, (name() for name in readers if name))
-    return next((os.path.basename(path.rstrip("/")) for path in paths), otherwise)
+    return next((os.path.basename(path.rstrip("/")) for path in paths), "a scan")
 
 
 def shape_of(part, found):
