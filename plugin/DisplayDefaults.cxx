@@ -6,7 +6,6 @@
 #include "ShownData.h"
 #include "TypeNames.h"
 
-#include "vtkCallbackCommand.h"
 #include "vtkCommand.h"
 #include "vtkDataObject.h"
 #include "vtkDataSetAttributes.h"
@@ -30,7 +29,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <utility>
 #include <vector>
 
 namespace
@@ -271,14 +269,19 @@ void colorByScalars(vtkSMRenderViewProxy* view, vtkSMProxy* representation, vtkP
   }
 }
 
+/// The color of a representation without an array that colors it; empty when it has one.
+std::vector<double> colorOf(vtkSMProxy* representation)
+{
+  const char* array = vtkSMPropertyHelper(representation, "ColorArrayName", true).GetInputArrayNameToProcess();
+  return array && *array ? std::vector<double>() : vtkSMPropertyHelper(representation, "DiffuseColor", true).GetDoubleArray();
+}
+
 /// Listens for what is added to views.
 class DisplayDefaults
 {
 public:
   void listen()
   {
-    this->Updated->SetCallback(onUpdated);
-    this->Updated->SetClientData(this);
     vtkSMProxyManager* proxies = vtkSMProxyManager::GetProxyManager();
     proxies->AddObserver(vtkCommand::RegisterEvent, this, &DisplayDefaults::onRegistered);
   }
@@ -291,16 +294,22 @@ private:
     if (view && std::strcmp(information->GroupName, "views") == 0)
     {
       view->AddObserver(vtkCommand::PropertyModifiedEvent, this, &DisplayDefaults::onViewModified);
+      this->look(view); // that of a state has its representations already
     }
   }
 
   void onViewModified(vtkObject* caller, unsigned long, void* data)
   {
     auto* view = vtkSMRenderViewProxy::SafeDownCast(caller);
-    if (!view || !data || std::strcmp(static_cast<const char*>(data), "Representations") != 0)
+    if (view && data && std::strcmp(static_cast<const char*>(data), "Representations") == 0)
     {
-      return;
+      this->look(view);
     }
+  }
+
+  /// For representations that are new.
+  void look(vtkSMRenderViewProxy* view)
+  {
     this->Seen.erase(std::remove(this->Seen.begin(), this->Seen.end(), nullptr), this->Seen.end());
     const vtkSMPropertyHelper representations(view, "Representations");
     for (unsigned int k = 0; k < representations.GetNumberOfElements(); ++k)
@@ -309,7 +318,13 @@ private:
       if (representation && std::find(this->Seen.begin(), this->Seen.end(), representation) == this->Seen.end())
       {
         this->Seen.emplace_back(representation);
-        if (!view->GetSessionProxyManager()->GetInLoadXMLState()) // a state brings its own
+        representation->AddObserver(vtkCommand::UpdateDataEvent, this, &DisplayDefaults::onUpdated);
+        const bool isOfState = view->GetSessionProxyManager()->GetInLoadXMLState(); // which brings its own
+        if (std::strcmp(representation->GetXMLName(), "ScalarBarWidgetRepresentation") == 0)
+        {
+          this->InViews.onAdded(view, representation, isOfState);
+        }
+        else if (!isOfState)
         {
           this->onAdded(view, representation);
         }
@@ -319,16 +334,12 @@ private:
 
   void onAdded(vtkSMRenderViewProxy* view, vtkSMProxy* representation)
   {
-    if (std::strcmp(representation->GetXMLName(), "ScalarBarWidgetRepresentation") == 0)
-    {
-      this->InViews.onAdded(view, representation);
-      return;
-    }
     const ShownData shown(representation);
     if (!shown.source)
     {
       return;
     }
+    nameTypes(representation);
     showPlain(representation, shown.data());
     if (!isOurs(shown.source))
     {
@@ -341,12 +352,7 @@ private:
     }
     if (shown.data()->GetNumberOfPoints() == 0) // where Apply failed it shows something after another one
     {
-      this->Empty.emplace_back(view, representation);
-    }
-    if (!shown.source->HasObserver(vtkCommand::UpdateDataEvent, this->Updated))
-    {
-      shown.source->AddObserver(vtkCommand::UpdateDataEvent, this->Updated);
-      nameTypes(shown.source);
+      this->Empty.push_back({ view, representation, colorOf(representation) });
     }
     showInFront(representation, shown);
     showAnswer(view, shown);
@@ -374,35 +380,45 @@ private:
     }
   }
 
-  static void onUpdated(vtkObject* caller, unsigned long, void* listener, void*)
+  void onUpdated(vtkObject* caller, unsigned long, void*)
   {
-    auto* source = vtkSMSourceProxy::SafeDownCast(caller);
-    nameTypes(source);
-    static_cast<DisplayDefaults*>(listener)->showFilled(source);
+    auto* representation = vtkSMProxy::SafeDownCast(caller);
+    this->showFilled(representation);
+    nameTypes(representation);
   }
 
-  void showFilled(vtkSMSourceProxy* source)
+  /// What came without data, and was not colored by the user since, is shown as what comes with them.
+  void showFilled(vtkSMProxy* representation)
   {
-    const auto known = std::exchange(this->Empty, {});
-    for (const auto& [view, representation] : known)
+    const auto known = std::find_if(
+      this->Empty.begin(), this->Empty.end(), [&](const Added& one) { return one.representation == representation; });
+    const ShownData shown(representation);
+    if (known == this->Empty.end() || !shown.source || shown.data()->GetNumberOfPoints() == 0)
     {
-      const ShownData shown(representation);
-      if (!view || shown.source != source || shown.data()->GetNumberOfPoints() == 0)
-      {
-        this->Empty.emplace_back(view, representation);
-        continue;
-      }
-      colorByScalars(view, representation, shown.data());
-      this->onAdded(view, representation);
+      return;
     }
-    this->Empty.erase(std::remove_if(this->Empty.begin(), this->Empty.end(),
-                        [](const auto& one) { return !one.first || !one.second; }),
-      this->Empty.end());
+    const Added added = *known;
+    this->Empty.erase(known);
+    if (added.view && colorOf(representation) == added.color)
+    {
+      colorByScalars(added.view, representation, shown.data());
+    }
+    if (added.view)
+    {
+      this->onAdded(added.view, representation);
+    }
   }
+
+  /// A representation, as it was without data.
+  struct Added
+  {
+    vtkWeakPointer<vtkSMRenderViewProxy> view;
+    vtkWeakPointer<vtkSMProxy> representation;
+    std::vector<double> color;
+  };
 
   std::vector<vtkWeakPointer<vtkSMProxy>> Seen;
-  std::vector<std::pair<vtkWeakPointer<vtkSMRenderViewProxy>, vtkWeakPointer<vtkSMProxy>>> Empty; ///< as they were added
-  vtkNew<vtkCallbackCommand> Updated;
+  std::vector<Added> Empty;
   Legends InViews;
 };
 }

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Legends.h"
 
+#include "ShownData.h"
+
 #include "vtkCommand.h"
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMProxy.h"
 #include "vtkSMRenderViewProxy.h"
-#include "vtkSMSessionProxyManager.h"
 
-#include <QString>
-#include <QStringList>
-
+#include <algorithm>
 #include <cstring>
+#include <iterator>
+#include <string>
 
 namespace
 {
@@ -42,12 +43,17 @@ bool isUsed(vtkSMRenderViewProxy* view, vtkSMProxy* colors)
 }
 }
 
-void Legends::onAdded(vtkSMRenderViewProxy* view, vtkSMProxy* legend)
+void Legends::onAdded(vtkSMRenderViewProxy* view, vtkSMProxy* legend, bool isOfState)
 {
-  vtkSMProxy* colors = vtkSMPropertyHelper(legend, "LookupTable").GetAsProxy();
-  const char* name = colors ? view->GetSessionProxyManager()->GetProxyName("lookup_tables", colors) : nullptr;
-  const QString array = QString(name).section('.', 0, 0);
-  if (QStringList{ "Rank", "PartId", "Residual", "Possible", "Obstruction", "PoseOutcome" }.contains(array))
+  this->Known.emplace_back(view, legend);
+  legend->AddObserver(vtkCommand::PropertyModifiedEvent, this, &Legends::onModified);
+  if (isOfState)
+  {
+    return;
+  }
+  const std::string array = mappedArray(vtkSMPropertyHelper(legend, "LookupTable").GetAsProxy());
+  const char* ours[] = { "Rank", "PartId", "Residual", "Possible", "Obstruction", "PoseOutcome" };
+  if (std::find(std::begin(ours), std::end(ours), array) != std::end(ours))
   {
     showSmall(legend);
   }
@@ -59,9 +65,7 @@ void Legends::onAdded(vtkSMRenderViewProxy* view, vtkSMProxy* legend)
     vtkSMPropertyHelper(legend, "Position").Set(leftOfPicks, 2);
     legend->UpdateVTKObjects();
   }
-  this->Known.emplace_back(view, legend);
   this->hideUnused(legend);
-  legend->AddObserver(vtkCommand::PropertyModifiedEvent, this, &Legends::onModified);
 }
 
 void Legends::onModified(vtkObject* caller, unsigned long, void* data)

@@ -14,7 +14,8 @@ class vtkSMRenderViewProxy;
 class Legends
 {
 public:
-  void onAdded(vtkSMRenderViewProxy* view, vtkSMProxy* legend);
+  /// One that a state brings looks as it was saved.
+  void onAdded(vtkSMRenderViewProxy* view, vtkSMProxy* legend, bool isOfState);
 
 private:
   void onModified(vtkObject* caller, unsigned long, void* data);

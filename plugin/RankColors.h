@@ -2,7 +2,8 @@
 #pragma once
 
 /// ParaView's color maps of our arrays, in ParaView's own form of settings. `Rank`: red, green, blue, yellow and pink for
-/// the ranks 1 to 5, the same, dark, for 6 to 10, gray for the others, the colors of vtkMEAMPoseInstances. `PartId`: the types of part, in colors that are those of no rank. `Residual`, of vtkMEAMPoseDiagnosis:
+/// the ranks 1 to 5, the same, dark, for 6 to 10, gray for the others, the colors of vtkMEAMPoseInstances. `PartId`: twelve types of part, in
+/// colors that are those of no rank; then they begin anew. `Residual`, of vtkMEAMPoseDiagnosis:
 /// what the scan shows of a part at a pose and beside it, in colors that are neither those of ranks nor those of picks.
 /// `Possible` and `Obstruction`, of vtkMEAMPickPlanning: green
 /// where a pick is possible, red where it is not. `PoseOutcome`, of vtkMEAMPoseEvaluation: green where a pose is right, yellow where a
@@ -21,9 +22,10 @@ inline constexpr const char* RankColors = R"({ "array_lookup_tables": { "Rank": 
   "IndexedLookup": 1,
   "AutomaticRescaleRangeMode": -1,
   "AnnotationsInitialized": 1,
-  "Annotations": [ "0", "part 1", "1", "part 2", "2", "part 3", "3", "part 4", "4", "part 5" ],
+  "Annotations": [ "0", "part 1", "1", "part 2", "2", "part 3", "3", "part 4", "4", "part 5", "5", "part 6" ],
   "IndexedColors": [ 0.302, 0.686, 0.780,  0.902, 0.494, 0.133,  0.549, 0.337, 0.647,  0.604, 0.757, 0.239,
-                     0.655, 0.424, 0.286 ],
+                     0.655, 0.424, 0.286,  0.000, 1.000, 0.800,  1.000, 0.000, 0.902,  0.902, 0.902, 0.702,
+                     0.302, 0.000, 1.000,  0.000, 1.000, 0.000,  1.000, 0.800, 1.000,  0.902, 0.000, 0.400 ],
   "NanColor": [ 0.588, 0.588, 0.588 ]
 } }, "Residual": { "PVLookupTable": {
   "IndexedLookup": 1,

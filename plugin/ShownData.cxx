@@ -6,8 +6,11 @@
 #include "vtkSMInputProperty.h"
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMPropertyIterator.h"
+#include "vtkSMSessionProxyManager.h"
 #include "vtkSMSourceProxy.h"
 #include "vtkSmartPointer.h"
+
+#include <QString>
 
 #include <cstring>
 
@@ -46,11 +49,12 @@ bool readsClouds(vtkSMSourceProxy* source)
   return name && (isOne("vtkMEAMPCDReader") || isOne("vtkMEAMPLYReader") || isOne("vtkMEAMXYZReader"));
 }
 
-bool comesFromScan(vtkSMSourceProxy* source, unsigned int port)
+vtkSMSourceProxy* firstUpstream(
+  vtkSMSourceProxy* source, unsigned int port, const std::function<bool(vtkSMSourceProxy*, unsigned int)>& isKind)
 {
-  if (readsClouds(source) || isOrganized(source->GetDataInformation(port)))
+  if (isKind(source, port))
   {
-    return true;
+    return source;
   }
   auto iterator = vtkSmartPointer<vtkSMPropertyIterator>::Take(source->NewPropertyIterator());
   for (iterator->Begin(); !iterator->IsAtEnd(); iterator->Next())
@@ -59,13 +63,20 @@ bool comesFromScan(vtkSMSourceProxy* source, unsigned int port)
     for (unsigned int k = 0; input && k < input->GetNumberOfProxies(); ++k)
     {
       auto* producer = vtkSMSourceProxy::SafeDownCast(input->GetProxy(k));
-      if (producer && comesFromScan(producer, input->GetOutputPortForConnection(k)))
+      if (auto* found = producer ? firstUpstream(producer, input->GetOutputPortForConnection(k), isKind) : nullptr)
       {
-        return true;
+        return found;
       }
     }
   }
-  return false;
+  return nullptr;
+}
+
+bool comesFromScan(vtkSMSourceProxy* source, unsigned int port)
+{
+  const auto isScan = [](vtkSMSourceProxy* from, unsigned int output)
+  { return readsClouds(from) || isOrganized(from->GetDataInformation(output)); };
+  return firstUpstream(source, port, isScan) != nullptr;
 }
 
 bool isInScene(vtkPVDataInformation* data)
@@ -73,4 +84,10 @@ bool isInScene(vtkPVDataInformation* data)
   const auto has = [&](const char* name) { return data->GetArrayInformation(name, vtkDataObject::POINT) != nullptr; };
   const bool areGrasps = has("FreeTurn"); // on the part
   return isOrganized(data) || (has("Transform") && !areGrasps) || has("RankColor") || has("EdgeSource");
+}
+
+std::string mappedArray(vtkSMProxy* colors)
+{
+  const char* name = colors ? colors->GetSessionProxyManager()->GetProxyName("lookup_tables", colors) : nullptr;
+  return QString(name).section('.', 0, 0).section('_', -1).toStdString(); // Separate_123_Rank.PVLookupTable
 }

@@ -2,9 +2,11 @@
 """What ParaView shows without a word from the user: poses in the colours of their ranks, a grey scan, both seen from the
 sensor, and nothing in front; of a chain's steps the last, over the scan."""
 import os
+import re
 import tempfile
 
 import numpy
+import ppfmeam
 from paraview import servermanager, simple
 
 from pictures import pixels, share
@@ -208,9 +210,9 @@ for kind in ("Hole plate", "Flap", "Knob"):
     path = os.path.join(folder.name, f"{kind.lower()}.stl")
     part = simple.SamplePartSource(Part=kind)
     simple.SaveData(path, part)
-    parts.append(simple.STLReader(FileNames=[path]))
-bin = simple.BinSceneOfPart(Input=parts[0], Copies=2, Width=320, Height=240)
-types = simple.MEAMPoseEstimation(Input=parts[:2], Scene=simple.OutputPort(bin, 0), MaximumNumberOfPoses=1)
+    parts.append(simple.STLReader(registrationName=kind, FileNames=[path]))
+bin = simple.BinSceneOfPart(registrationName="Bin", Input=parts[0], Copies=2, Width=320, Height=240)
+types = simple.MEAMPoseEstimation(registrationName="Types", Input=parts[:2], Scene=simple.OutputPort(bin, 0), MaximumNumberOfPoses=1)
 simple.Show(simple.OutputPort(types, 2), view)
 simple.Show(simple.OutputPort(types, 0), view)
 simple.Render(view)
@@ -222,12 +224,47 @@ types.Input = parts[1:]
 simple.Render(view)
 check(list(table.Annotations) == ["0", "flap", "1", "knob"], f"the legend of other types has {table.Annotations}")
 
+# Another estimation has a legend of its own types; what the user changes stays, also after a state was loaded.
+others = simple.MEAMPoseEstimation(registrationName="Others", Input=parts[:2], Scene=simple.OutputPort(bin, 0), MaximumNumberOfPoses=1)
+copies = simple.Show(simple.OutputPort(others, 2), view)
+copies.SetScalarBarVisibility(view, True)
+own = copies.LookupTable
+check(list(table.Annotations) == ["0", "flap", "1", "knob"], f"another estimation has written {table.Annotations}")
+check(list(own.Annotations) == ["0", "hole plate", "1", "flap"] and list(own.IndexedColors) == list(table.IndexedColors),
+      f"the legend of another estimation has {own.Annotations}")
+check(simple.GetScalarBar(own, view).ScalarBarLength < 0.3, "its legend is large")
+with open(os.path.join(os.path.dirname(ppfmeam.__file__), "report", "page.js")) as file:
+    palette = re.search(r"palette = \[(.*?)\]", file.read(), re.DOTALL).group(1)
+check(["#{:02x}{:02x}{:02x}".format(*(round(255 * c) for c in table.IndexedColors[3 * k:3 * k + 3])) for k in range(12)]
+      == re.findall("#......", palette), f"the page has the types in {palette}")
+table.Annotations = ["0", "lid", "1", "button"]
+for other in simple.GetViews():
+    if other.SMProxy is not view.SMProxy:
+        simple.Delete(other)
+state = os.path.join(folder.name, "types.pvsm")
+simple.SaveState(state)
+simple.ResetSession()
+simple.LoadState(state)
+types, others, *parts = map(simple.FindSource, ("Types", "Others", "Flap", "Knob"))
+view, = simple.GetViews()
+for source, expected, now in ((types, ["0", "lid", "1", "button"], ["0", "lid", "1", "button"]),
+                              (others, ["0", "hole plate", "1", "flap"], ["0", "flap", "1", "knob"])):
+    table = simple.GetRepresentation(simple.OutputPort(source, 2), view).LookupTable
+    check(list(table.Annotations) == expected, f"the state has {table.Annotations}")
+    source.Input = parts
+    simple.Render(view)
+    check(list(table.Annotations) == now, f"after the state was loaded and Apply it has {table.Annotations}")
+
 # What comes out of a second Apply, after one that failed, is colored, too.
 view = simple.CreateRenderView()
-found = simple.MEAMPoseEstimation(Input=parts[0], Scene=simple.OutputPort(bin, 0), MaximumNumberOfPoses=1, CADScale=0.001)
+plate, scan = simple.FindSource("Hole plate"), simple.OutputPort(simple.FindSource("Bin"), 0)
+found = simple.MEAMPoseEstimation(Input=plate, Scene=scan, MaximumNumberOfPoses=1, CADScale=0.001)
 copies = simple.Show(simple.OutputPort(found, 2), view)
 simple.Render(view)
 check(not copies.ColorArrayName[0], "there is nothing to color")
+colored = simple.Show(simple.OutputPort(found, 2), simple.CreateRenderView())
+colored.DiffuseColor = colored.AmbientColor = [0, 0, 1]
 found.CADScale = 1
-simple.Render(view)
+simple.RenderAllViews()
+check(not colored.ColorArrayName[0], f"the user's color gives way to {colored.ColorArrayName}")
 check(list(copies.ColorArrayName) == ["POINTS", "Rank"], f"after a failure they are colored by {copies.ColorArrayName}")

@@ -9,8 +9,9 @@
   const shown = pose => pose.place === undefined || pose.place >= state.least || pose.rank === state.chosen || pose.judged === "right";
   const inkOf = color => [1, 3, 5].reduce((sum, k, i) => sum + parseInt(color.slice(k, k + 2), 16) * [0.3, 0.59, 0.11][i], 0) < 140 ? "#fff" : "#111";
   const fixed = (values, digits) => values.map(value => value.toFixed(digits));
-  const palette = ["#4dafc7", "#e67e22", "#8c56a5", "#9ac13d", "#a76c49"]; // of types of part, as ParaView has them
-  const colorOf = pose => state.byPart ? palette[pose.part] || "#969696" : pose.color;
+  const palette = ["#4dafc7", "#e67e22", "#8c56a5", "#9ac13d", "#a76c49",
+    "#00ffcc", "#ff00e6", "#e6e6b3", "#4d00ff", "#00ff00", "#ffccff", "#e60066"]; // of types of part, as ParaView has them
+  const colorOf = pose => state.byPart ? palette[pose.part % palette.length] : pose.color;
   let space = null; // the 3D view; null without WebGL
 
   function bytes(text) {
