@@ -6,6 +6,7 @@
 #include "pqActiveObjects.h"
 #include "pqApplicationCore.h"
 #include "pqOutputPort.h"
+#include "pqPipelineFilter.h"
 #include "pqPipelineSource.h"
 #include "pqProxySelection.h"
 #include "pqServerManagerModel.h"
@@ -39,6 +40,8 @@ bool isPart(pqOutputPort* port)
          !isOf(port->getSource(), "vtkMEAMGraspDefinition"); // its jaws
 }
 
+bool isPartOrEmpty(pqOutputPort* port) { return isPart(port) || isEmptyPart(port); }
+
 bool isEstimation(pqOutputPort* port)
 {
   return port->getPortNumber() == 0 && isOf(port->getSource(), "vtkMEAMPoseEstimation");
@@ -66,6 +69,14 @@ pqOutputPort* choose(bool (*isKind)(pqOutputPort*))
 }
 }
 
+bool isEmptyPart(pqOutputPort* port)
+{
+  pqPipelineSource* source = port->getSource();
+  const bool isFile = !qobject_cast<pqPipelineFilter*>(source) && (!isOurs(source->getSourceProxy()) || isOf(source, "vtkMEAMMeshReader"));
+  vtkPVDataInformation* data = port->getDataInformation();
+  return isFile && data->DataSetTypeIsA("vtkPolyData") && data->GetNumberOfPoints() == 0;
+}
+
 QList<pqOutputPort*> openParts()
 {
   QList<pqOutputPort*> parts;
@@ -73,12 +84,12 @@ QList<pqOutputPort*> openParts()
   {
     auto* source = qobject_cast<pqPipelineSource*>(item);
     pqOutputPort* port = source ? source->getOutputPort(0) : qobject_cast<pqOutputPort*>(item);
-    if (port && isPart(port))
+    if (port && isPartOrEmpty(port))
     {
       parts.append(port);
     }
   }
-  pqOutputPort* last = choose(isPart);
+  pqOutputPort* last = choose(isPartOrEmpty);
   return parts.empty() && last ? QList<pqOutputPort*>{ last } : parts;
 }
 

@@ -4,6 +4,7 @@
 #include "DisplayDefaults.h"
 #include "NewPart.h"
 #include "OpenData.h"
+#include "OpenedFiles.h"
 #include "PartView.h"
 #include "ScanPicking.h"
 #include "ScoreCharts.h"
@@ -44,11 +45,20 @@ constexpr int UntilNextLook = 100; // ms
 
 using Inputs = QMap<QString, QList<pqOutputPort*>>;
 
-/// The parts and the scan that are open. None: they are not, which is said.
+/// The parts and the scan that are open. None: they are not, or a part is empty, which is said.
 Inputs openInputs(const char* label)
 {
   const QList<pqOutputPort*> parts = openParts();
   pqOutputPort* scan = openScan();
+  for (pqOutputPort* part : parts)
+  {
+    if (isEmptyPart(part))
+    {
+      QMessageBox::information(pqCoreUtilities::mainWidget(), label,
+        QString("%1 has no triangles: delete it, or select another part.").arg(part->getSource()->getSMName()));
+      return {};
+    }
+  }
   if (parts.empty() || !scan)
   {
     QMessageBox::information(pqCoreUtilities::mainWidget(), label,
@@ -208,6 +218,7 @@ void build()
   addNewPart(window);
   addPartView();
   addScanPicking(window);
+  addOpenedFiles(window);
   qApp->installEventFilter(new InputNames(window));
   // ParaView shows the inputs of a filter that is deleted.
   QObject::connect(pqApplicationCore::instance()->getServerManagerModel(), &pqServerManagerModel::preSourceRemoved, window,

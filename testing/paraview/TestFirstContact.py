@@ -2,7 +2,7 @@
 """The first clicks in the application, played by ParaView's own player: a CAD is opened, a series of scans is opened,
 MEAM Pose Estimation, Apply; the page of what was found is saved; the charts; the series is played; Pose Diagnosis is asked about points of the scan, by Ctrl+P and
 by P, and why a hidden part was missed; grasps are proposed, and picks planned. The state that is saved then is opened by
-pvpython, which looks at it. The tutorial shows its text and opens its example; the dialog of the menu names its inputs.
+pvpython, which looks at it. Files that are no CAD are refused. The tutorial shows its text and opens its example; the dialog of the menu names its inputs.
 
 Usage: TestFirstContact.py PARAVIEW PVPYTHON REPOSITORY; with PPFMEAM_PICTURE=FOLDER pictures of the whole window go there,
 those of docs/gallery.md (needs python3-pil).
@@ -16,8 +16,8 @@ import sys
 import tempfile
 import xml.etree.ElementTree as ElementTree
 
-from clicks import (APPLY, BROWSER, PROPERTIES, accept_inputs, check, choice, connect, event, expect, files, filter_of_menu, item,
-                    menu, number, play, point_and_press, shoot, view)
+from clicks import (APPLY, BROWSER, LONGEST, PROPERTIES, accept_inputs, check, choice, connect, event, expect, files, filter_of_menu, item,
+                    menu, number, play, point_and_press, shoot, start, view)
 
 RED, GREEN, BROWN = (220, 30, 30), (40, 170, 50), (140, 92, 51)
 PICTURES = os.environ.get("PPFMEAM_PICTURE")
@@ -61,6 +61,24 @@ def tutorial(folder, text):
         event("PPFMEAMTutorial/Page/OpenExample", "activate"),
         event("PoseEstimationToolbar/EstimatePoses", "activate"),
         *files("actionFileSaveServerState", "FileSaveServerStateDialog", f"{folder}/example.pvsm")]
+
+
+def refused(paraview, repository, folder):
+    """Files that are no CAD are opened: the sentences, and that no other CAD takes the place of one that is empty."""
+    contents = {"image": b"\x89PNG\r\n\x1a\n" + bytes(range(256)) * 9, "random": bytes(range(255, 0, -1)) * 9, "nothing": b"",
+                "empty": b"solid a\nendsolid a\n"}
+    for name, content in contents.items():
+        with open(f"{folder}/{name}.stl", "wb") as file:
+            file.write(content)
+    paths = [os.path.join(repository, "examples", "parts", "knob.stl"), *(f"{folder}/{name}.stl" for name in contents)]
+    box, events = "1QMessageBox0", [done for path in paths for done in files("actionFileOpen", "FileOpenDialog", path)]
+    events += [event("PoseEstimationToolbar/EstimatePoses", "activate"),
+               expect(box, "text", "empty.stl has no triangles: delete it, or select another part."),
+               event(f"{box}/qt_msgbox_buttonbox/1QPushButton0", "activate")]
+    said, _ = start(paraview, folder, events, "--exit").communicate(timeout=LONGEST)
+    for words in ("image.stl was not opened: it is no STL but a PNG image", "random.stl was not opened: it is no STL, or damaged",
+                  "nothing.stl was not opened: it is empty", "Success =  true"):
+        check(words in said, f"not said: {words}: {said[-3000:]}")
 
 
 def prepare(folder, repository):
@@ -206,7 +224,7 @@ def look_at_page(path):
     """File > Save Data of the poses is the page of `detect --report`."""
     with open(path) as file:
         text = file.read()
-    check("<title>obj_000001.ply in camera.json</title>" in text and "poses are more likely there than not" in text, text[:400])
+    check("<title>obj_000001 in camera.json</title>" in text and "poses are more likely there than not" in text, text[:400])
     check(text.count('"why":"For it, in the logarithm of the odds: ') >= 2, "the poses have no reasons")
 
 
@@ -224,6 +242,7 @@ def look_at_example(path):
 
 def main(paraview, pvpython, repository):
     with tempfile.TemporaryDirectory() as folder:
+        refused(paraview, repository, folder)
         hidden = prepare(folder, repository)
         events = []
         for name, stage in clicks(folder, hidden):
