@@ -4,6 +4,7 @@ import math
 
 import numpy
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+from vtkmodules.vtkFiltersSources import vtkSphereSource
 
 from ppfmeam.filters import vtkMEAMMeshPreparation
 from meamtest import box, check, close, cloud, connect, fails, field, image, mesh, points, run, text
@@ -91,6 +92,16 @@ fine = run(prepare(box(10, 20, 30), EdgeLength=2.0))
 check(len(triangles(fine)) > 800 and abs(field(fine, "Volume")[0][0] - 6000) < 0.1, f"{len(triangles(fine))} triangles")
 coarse = run(prepare(fine, MaximumError=0.01))
 check(len(triangles(coarse)) == 12, f"{len(triangles(coarse))} triangles are left")
+
+# The progress of many triangles goes on in every step, so that it can be stopped there.
+ball = vtkSphereSource()
+ball.SetThetaResolution(300)
+ball.SetPhiResolution(150)
+ball.Update()
+filter, shares = prepare(ball.GetOutput()), []
+filter.AddObserver("ProgressEvent", lambda caller, event: shares.append(caller.GetProgress()))
+run(filter)
+check(all(any(low < share < low + 0.1 for share in shares) for low in (0, 0.2, 0.4, 0.5)) and shares == sorted(shares), f"{shares}")
 
 fails(prepare(box(10, 20, 30), EdgeLength=1e-5), "edge length")
 fails(prepare(vtkPolyData()), "no faces")

@@ -100,7 +100,7 @@ PreparedMesh prepareMesh(const TriangleMesh& input, const MeshPreparationSetting
   counts.inputVertices = static_cast<int>(input.vertices.size());
   counts.inputTriangles = static_cast<int>(input.triangles.size());
   report(progress, 0.0);
-  SurfaceMesh mesh = meshOfSoup(input, settings, counts);
+  SurfaceMesh mesh = meshOfSoup(input, settings, counts, subProgress(progress, 0.0, 0.3));
   if (mesh.number_of_faces() == 0)
   {
     throw Error("The mesh has no area: all of its faces are degenerate.");

@@ -123,7 +123,8 @@ SurfaceMesh sewnMesh(std::vector<Point>& points, std::vector<Corners>& triangles
 }
 }
 
-SurfaceMesh meshOfSoup(const TriangleMesh& input, const MeshPreparationSettings& settings, MeshReport& counts)
+SurfaceMesh meshOfSoup(
+  const TriangleMesh& input, const MeshPreparationSettings& settings, MeshReport& counts, const Progress& progress)
 {
   std::vector<Point> points;
   points.reserve(input.vertices.size());
@@ -148,7 +149,9 @@ SurfaceMesh meshOfSoup(const TriangleMesh& input, const MeshPreparationSettings&
   counts.degenerateTriangles = static_cast<int>(triangles.end() - kept);
   triangles.erase(kept, triangles.end());
   counts.duplicateTriangles = static_cast<int>(PMP::merge_duplicate_polygons_in_polygon_soup(points, triangles));
+  report(progress, 0.3);
   SurfaceMesh mesh = sewnMesh(points, triangles, counts);
+  report(progress, 0.8);
 
   // Triangles on a line inside the mesh: flipped or collapsed, so that their neighbours stay
   // connected.
@@ -210,6 +213,34 @@ void closeHoles(SurfaceMesh& mesh, double holeSize, MeshReport& counts, const Pr
   }
 }
 
+namespace
+{
+/// The points of a mesh, for a function that reports no progress: by how often it has asked for one.
+struct WatchedPoints
+{
+  using key_type = SurfaceMesh::Vertex_index;
+  using value_type = Point;
+  using reference = const Point&;
+  using category = boost::readable_property_map_tag;
+
+  const SurfaceMesh& mesh;
+  const Progress& progress;
+  std::size_t& asked;
+
+  friend reference get(const WatchedPoints& points, key_type vertex)
+  {
+    constexpr std::size_t Stride = 1 << 18; // some hundredths of a second
+    constexpr double AskedOfFace = 60.0;    // by self_intersections(), where nothing intersects
+    if (++points.asked % Stride == 0)
+    {
+      report(points.progress, std::min(1.0, static_cast<double>(points.asked) /
+                                              (AskedOfFace * static_cast<double>(points.mesh.number_of_faces()))));
+    }
+    return points.mesh.point(vertex);
+  }
+};
+}
+
 int countIntersections(const SurfaceMesh& mesh, const Progress& progress)
 {
   struct Enough
@@ -220,7 +251,6 @@ int countIntersections(const SurfaceMesh& mesh, const Progress& progress)
   {
     // A triangle without area that could not be removed comes with itself.
     count += pair.first != pair.second;
-    report(progress, 0.0);
     if (count == MostIntersections)
     {
       throw Enough();
@@ -228,7 +258,9 @@ int countIntersections(const SurfaceMesh& mesh, const Progress& progress)
   };
   try
   {
-    PMP::self_intersections(mesh, boost::make_function_output_iterator(add));
+    std::size_t asked = 0;
+    PMP::self_intersections(mesh, boost::make_function_output_iterator(add),
+      PMP::parameters::vertex_point_map(WatchedPoints{ mesh, progress, asked }));
   }
   catch (const Enough&)
   {

@@ -11,7 +11,8 @@ namespace meam
 
 /// The scaled and moved triangles with shared vertices, wound consistently, without duplicate or
 /// degenerate ones. May be empty.
-SurfaceMesh meshOfSoup(const TriangleMesh& input, const MeshPreparationSettings& settings, MeshReport& counts);
+SurfaceMesh meshOfSoup(
+  const TriangleMesh& input, const MeshPreparationSettings& settings, MeshReport& counts, const Progress& progress);
 
 /// Removes all connected components but the one of the largest area.
 void keepLargestComponent(SurfaceMesh& mesh, MeshReport& counts);
