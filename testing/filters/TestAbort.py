@@ -31,8 +31,8 @@ def readers():
     png(path("bop/test/000001/depth/000000.png", b""), ROWS, "uint16")
     path("bop/test/000001/scene_camera.json",
          json.dumps({"0": {"cam_K": [100, 0, 4, 0, 100, 100, 0, 0, 1], "depth_scale": 1.0}}))
-    return [depth, ply, reader(filters.vtkMEAMPCDReader, pcd), reader(filters.vtkMEAMMeshReader, off),
-            reader(filters.vtkMEAMBOPReader, path("bop"))]
+    return [depth, ply, reader(filters.vtkMEAMPCDReader, pcd), reader(filters.vtkMEAMXYZReader, path("cloud.xyz", "1 2 3\n" * 20000)),
+            reader(filters.vtkMEAMMeshReader, off), reader(filters.vtkMEAMBOPReader, path("bop"))]
 
 
 def steps():

@@ -18,6 +18,7 @@ constexpr float SmoothTurn = 0.97f; // cosine between the normals of neighbours 
 // How far they lie off each other's plane: so much of the distance between them, 14 degrees, and standard deviations.
 constexpr float SmoothSlope = 0.25f;
 constexpr float Noises = 2.0f;
+constexpr float EdgeReach = 0.03f; // of the diameter: thinned edge points stand up to twice as far apart
 static_assert(FitDistance <= FieldReach, "what lies farther off the part than its field reaches is not on it");
 }
 
@@ -26,6 +27,7 @@ SurfaceContinuation::SurfaceContinuation(const Scene& scene, const TrainedModel&
   , Model(model)
   , Tolerance(static_cast<float>(FitDistance * model.diameter))
   , Noise(static_cast<float>(scene.quality.noise))
+  , IsSheet(model.sheetThickness() < ThickSheet)
   , Reach(static_cast<int>(Farthest * model.diameter / scene.depth.cellSize()))
 {
   const double inPatch = scene.depth.cellSize() / (PatchSize * model.diameter);
@@ -44,6 +46,11 @@ bool SurfaceContinuation::isOfBin(const Eigen::Vector3f& point) const
   const std::vector<Plane>& planes = this->InScene.enclosure;
   return std::any_of(planes.begin(), planes.end(),
     [&](const Plane& plane) { return std::abs(plane.signedDistance(point)) < this->Tolerance; });
+}
+
+bool SurfaceContinuation::isAtEdge(const Eigen::Vector3f& point) const
+{
+  return this->IsSheet && this->InScene.edgeGrid().nearest(point, EdgeReach * this->Model.diameter) >= 0;
 }
 
 bool SurfaceContinuation::isSmooth(int from, int to) const
@@ -93,8 +100,9 @@ Points SurfaceContinuation::beyond(const Eigen::Isometry3d& T_scene_model) const
       for (const int to : depth.neighboursOf(from))
       {
         if (steps > this->Reach || to < 0 || !depth.isMeasured(to) || cells.count(to) > 0 ||
-            !this->isSmooth(from, to) || (isBeside && !this->isSmooth(before.from, to)) ||
-            this->isOn(depth.meanIn(to), toModel) == isBeside || (isBeside && this->isOfBin(depth.meanIn(to))))
+            this->isAtEdge(depth.meanIn(to)) || !this->isSmooth(from, to) ||
+            (isBeside && !this->isSmooth(before.from, to)) || this->isOn(depth.meanIn(to), toModel) == isBeside ||
+            (isBeside && this->isOfBin(depth.meanIn(to))))
         {
           continue;
         }

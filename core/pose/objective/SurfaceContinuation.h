@@ -8,8 +8,8 @@ namespace meam
 {
 /// What the scan still holds beside a pose: measured surface that goes on smoothly, as one face, from the surface that
 /// the pose explains, and is not the part. Another body that touches the part goes on with a crease or a jump, and says
-/// nothing (clutter on a smooth segment: Aldoma et al., A global hypotheses verification method for 3D object
-/// recognition, ECCV 2012). Calls may run in parallel.
+/// nothing; what a sheet lies on is so near that an edge of the scan tells it, too (clutter on a smooth segment: Aldoma
+/// et al., A global hypotheses verification method for 3D object recognition, ECCV 2012). Calls may run in parallel.
 class SurfaceContinuation
 {
 public:
@@ -28,12 +28,14 @@ private:
     return this->Model.surfaceDistance.at(T_model_scene * point) < this->Tolerance;
   }
   bool isOfBin(const Eigen::Vector3f& point) const;
+  bool isAtEdge(const Eigen::Vector3f& point) const;
   bool isSmooth(int from, int to) const;
 
   const Scene& InScene;
   const TrainedModel& Model;
-  float Tolerance;       ///< mm
-  float Noise;           ///< mm, of a cell's mean
+  float Tolerance; ///< mm
+  float Noise;     ///< mm, of a cell's mean
+  bool IsSheet;
   int Reach;             ///< cells
   double PatchesOfPoint; ///< what one of these points counts
 };

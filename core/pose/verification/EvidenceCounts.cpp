@@ -62,8 +62,9 @@ double EvidenceCounts::ofLines(const EvidenceRates& rates) const
 
 double EvidenceCounts::sum(const EvidenceRates& rates) const { return this->ofSurface() + this->ofLines(rates); }
 
-EvidenceRates evidenceRates(const std::vector<EvidenceCounts>& candidates)
+EvidenceRates evidenceRates(const std::vector<EvidenceCounts>& candidates, double thickness)
 {
+  const double ofSheet = std::min(thickness / ThickSheet, 1.0);
   using Count = double EvidenceCounts::*;
   std::vector<double> right(candidates.size()); // probabilities
   const auto rateOf = [&](Count found, Count missing, const EvidenceRate& usual, double usualCount, double leastFound)
@@ -87,7 +88,12 @@ EvidenceRates evidenceRates(const std::vector<EvidenceCounts>& candidates)
   for (int step = 0; step < Steps; ++step)
   {
     std::transform(candidates.begin(), candidates.end(), right.begin(),
-      [&](const EvidenceCounts& counts) { return probabilityOf(CalibrationWithSurface.logOdds(counts.sum(rates))); });
+      [&](const EvidenceCounts& counts)
+      {
+        const double surface = counts.ofSurface();
+        return probabilityOf(
+          CalibrationWithSurface.logOdds((surface > 0.0 ? ofSheet * surface : surface) + counts.ofLines(rates)));
+      });
     rates.edges = rateOf(&EvidenceCounts::edgesFound, &EvidenceCounts::edgesMissing, usual.edges, UsualEdges, 0.0);
     rates.outline = rateOf(&EvidenceCounts::ends, &EvidenceCounts::goesOn, usual.outline, UsualOutline, LeastEnds);
   }

@@ -7,6 +7,8 @@ namespace meam
 {
 /// Of the diameter, the side of a square, as the sensor sees it, that counts once: neighbours tell the same.
 inline constexpr double PatchSize = 0.1;
+/// Of the diameter: the surface of a thinner sheet is like what it lies on.
+inline constexpr double ThickSheet = 0.06;
 
 /// How often something that a pose predicts is found in this scan.
 struct EvidenceRate
@@ -54,6 +56,8 @@ double logSaturated(double sum, double many);
 
 /// The rates of a scan, from what was counted of its candidates, by expectation maximization: each tells how often
 /// something is found where the part is as far as it is likely to be right, from the sum of its evidence by the rates
-/// of the step before, and how often it is found anywhere as far as it is wrong.
-EvidenceRates evidenceRates(const std::vector<EvidenceCounts>& candidates);
+/// of the step before, and how often it is found anywhere as far as it is wrong. The surface of a sheet, `thickness` in
+/// diameters (TrainedModel::sheetThickness), is like what it lies on: it speaks the less for a candidate the thinner it
+/// is.
+EvidenceRates evidenceRates(const std::vector<EvidenceCounts>& candidates, double thickness = 1.0);
 }

@@ -28,8 +28,7 @@ constexpr double OfPast = -4.3;   // and of one that the sensor looked past
 constexpr double OfUnmeasured = -0.35; // of a patch where nothing was measured,
 constexpr double OfEnclosed = -3.0;    // and of one of the body behind the bin's floor or a wall, seen or not
 // The surface of a sheet is like what it lies on:
-constexpr double OfThin = -6.6;        // of one without thickness,
-constexpr double Thick = 0.06;         // and nothing of one so thick, in diameters
+constexpr double OfThin = -6.6;        // of one without thickness, nothing of a thick one
 constexpr double OfOutlineShare = 6.2; // of all of the outline, that the measured surface ends there,
 constexpr double HalfEnds = 0.5;       // which says nothing where so much of it ends,
 constexpr double FewSides = 4.0;       // and little where it is shorter (sides of patches)
@@ -91,7 +90,8 @@ PlaceOdds placeOdds(const EvidenceCounts& counts, const EvidenceRates& rates, do
     { "surface that the sensor saw past", "patches", past, OfPast * past },
     { "surface that was not measured", "patches", counts.unmeasured, OfUnmeasured * counts.unmeasured },
     { "body behind the bin's floor or a wall", "patches", counts.enclosed, OfEnclosed * counts.enclosed },
-    { "thickness of a sheet", "% of its diameter", 100.0 * thickness, OfThin * std::max(1.0 - thickness / Thick, 0.0) },
+    { "thickness of a sheet", "% of its diameter", 100.0 * thickness,
+      OfThin * std::max(1.0 - thickness / ThickSheet, 0.0) },
     ofFoundEdges(counts, ofEdges(counts, rate)),
     { "outline", "patches long where surface ends", counts.ends, ofOutline(counts) } };
   eraseIf(terms, [](const EvidenceTerm& term) { return term.adds == 0.0; });

@@ -79,6 +79,7 @@ public:
   bool nearEdge(const Eigen::Vector3f& point) const;
   /// How near to the scene a model point fits, mm.
   float tolerance() const { return this->Tolerance; }
+  double sheetThickness() const { return this->Model.sheetThickness(); }
 
 private:
   /// What a pose predicts to be visible; every `stride`-th point of it is looked at.

@@ -53,7 +53,7 @@ EvidenceRates evidenceRatesOf(const Poses& candidates, const EvidenceCollector& 
   std::vector<EvidenceCounts> counts(candidates.size());
   parallelForEach(static_cast<int>(candidates.size()), threads, {},
     [&](int i) { counts[i] = collector.collect(candidates[i].T_scene_model, stride).counts; });
-  return evidenceRates(counts);
+  return evidenceRates(counts, collector.sheetThickness());
 }
 
 namespace
@@ -85,7 +85,8 @@ EvidenceRates scoreByEvidence(Poses& poses, const Scene& scene, const TrainedMod
     poses[i].viewId = seen[i].viewId;
     counts.push_back(seen[i].counts);
   }
-  const EvidenceRates rates = settings.evidence.rates ? *settings.evidence.rates : evidenceRates(counts);
+  const EvidenceRates rates =
+    settings.evidence.rates ? *settings.evidence.rates : evidenceRates(counts, collector.sheetThickness());
   for (std::size_t i = 0; i < poses.size(); ++i)
   {
     setEvidence(poses[i], collector.logOdds(counts[i], rates));

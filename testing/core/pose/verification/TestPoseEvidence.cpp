@@ -126,6 +126,22 @@ TEST(PoseEvidence, RatesOfEdgesAreThoseOfTheScan)
   EXPECT_LT(misleading.edges.found - misleading.edges.chance, 0.03);
 }
 
+TEST(PoseEvidence, TheSurfaceOfASheetTellsNoRates)
+{
+  // What lies flat on the floor has all of its surface there, and the edges alone tell the copies from the rest.
+  std::vector<meam::EvidenceCounts> candidates(20);
+  for (std::size_t k = 0; k < candidates.size(); ++k)
+  {
+    candidates[k].there = 80.0;
+    candidates[k].edgesFound = k < 2 ? 900.0 : 100.0;
+    candidates[k].edgesMissing = k < 2 ? 100.0 : 900.0;
+  }
+  EXPECT_LT(meam::evidenceRates(candidates).edges.found, 0.35);
+  const meam::EvidenceRates rates = meam::evidenceRates(candidates, 0.0);
+  EXPECT_NEAR(rates.edges.found, (1800.0 + 150.0 * 0.75) / 2150.0, 1e-3);
+  EXPECT_NEAR(rates.edges.chance, (18 * 100.0 + 150.0 * 0.3) / 18150.0, 1e-3);
+}
+
 TEST(PoseEvidence, RatesOfOutlinesAreThoseOfTheScan)
 {
   // The outline of one candidate of ten ends nearly everywhere, that of the others nearly nowhere. The usual rates
