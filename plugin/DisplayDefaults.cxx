@@ -390,6 +390,8 @@ private:
   /// What came without data, and was not colored by the user since, is shown as what comes with them.
   void showFilled(vtkSMProxy* representation)
   {
+    this->Empty.erase(std::remove_if(this->Empty.begin(), this->Empty.end(), [](const Added& one) { return !one.representation; }),
+      this->Empty.end());
     const auto known = std::find_if(
       this->Empty.begin(), this->Empty.end(), [&](const Added& one) { return one.representation == representation; });
     const ShownData shown(representation);

@@ -11,6 +11,7 @@
 #include "pqProxySelection.h"
 #include "pqServerManagerModel.h"
 #include "vtkPVDataInformation.h"
+#include "vtkSMCoreUtilities.h"
 #include "vtkSMSourceProxy.h"
 
 #include <cstring>
@@ -72,7 +73,8 @@ pqOutputPort* choose(bool (*isKind)(pqOutputPort*))
 bool isEmptyPart(pqOutputPort* port)
 {
   pqPipelineSource* source = port->getSource();
-  const bool isFile = !qobject_cast<pqPipelineFilter*>(source) && (!isOurs(source->getSourceProxy()) || isOf(source, "vtkMEAMMeshReader"));
+  vtkSMSourceProxy* proxy = source->getSourceProxy();
+  const bool isFile = isOf(source, "vtkMEAMMeshReader") || (!isOurs(proxy) && vtkSMCoreUtilities::GetFileNameProperty(proxy));
   vtkPVDataInformation* data = port->getDataInformation();
   return isFile && data->DataSetTypeIsA("vtkPolyData") && data->GetNumberOfPoints() == 0;
 }

@@ -33,9 +33,16 @@ QString otherThanSTL(const QString& path)
   {
     return "it is empty";
   }
-  const std::pair<const char*, const char*> kinds[] = { { "\x89PNG", "a PNG image" }, { "\xff\xd8\xff", "a JPEG image" },
-    { "II*", "a TIFF image" }, { "MM", "a TIFF image" }, { "GIF8", "a GIF image" }, { "%PDF", "a PDF" },
-    { "PK\x03\x04", "a ZIP archive" }, { "# .PCD", "a PCD cloud" }, { "ply", "a PLY file" }, { "ISO-10303-21", "a STEP file" } };
+  const qint64 promised = start.size() < Counted ? -1 : qFromLittleEndian<quint32>(start.constData() + Header);
+  const qint64 there = (file.size() - Counted) / Triangle;
+  if (promised == there) // a binary one, whatever its header
+  {
+    return {};
+  }
+  const std::pair<QByteArray, const char*> kinds[] = { { "\x89PNG", "a PNG image" }, { "\xff\xd8\xff", "a JPEG image" },
+    { "II*", "a TIFF image" }, { QByteArray("MM\0*", 4), "a TIFF image" }, { "GIF8", "a GIF image" }, { "%PDF", "a PDF" },
+    { "PK\x03\x04", "a ZIP archive" }, { "# .PCD", "a PCD cloud" }, { "ply\n", "a PLY file" }, { "ply\r", "a PLY file" },
+    { "ISO-10303-21", "a STEP file" } };
   for (const auto& [bytes, kind] : kinds)
   {
     if (start.startsWith(bytes))
@@ -43,12 +50,13 @@ QString otherThanSTL(const QString& path)
       return QString("it is no STL but %1").arg(kind);
     }
   }
-  const bool isText = std::all_of(start.begin(), start.end(), [](char letter) { return (letter & 0x80) == 0 && letter != 0; });
+  const bool isASCII = std::all_of(start.begin(), start.end(), [](char letter) { return (letter & 0x80) == 0; });
+  const bool isSolid = start.mid(start.startsWith("\xef\xbb\xbf") ? 3 : 0).trimmed().toLower().startsWith("solid");
+  const bool isText = !start.contains('\0') && (isASCII || isSolid);
   if (isText || start.size() < Counted)
   {
     return {};
   }
-  const qint64 promised = qFromLittleEndian<quint32>(start.constData() + Header), there = (file.size() - Counted) / Triangle;
   return promised > 2 * there + 1 // a file that is cut off may have half
     ? QString("it is no STL, or damaged: it promises %1 triangles and has room for %2").arg(promised).arg(there)
     : QString();

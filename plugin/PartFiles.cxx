@@ -27,7 +27,7 @@ const char* PartFiles::reader() const
   return this->isDepthImage()                                           ? "DepthImageReader"
     : kind == "pcd"                                                     ? "PCDReader"
     : kind == "ply"                                                     ? "PLYCloudReader"
-    : QStringList{ "xyz", "csv", "txt", "asc", "pts" }.contains(kind) ? "XYZReader"
+    : QStringList{ "xyz", "csv", "txt", "asc", "pts" }.contains(kind) ? "XYZCloudReader"
                                                                         : nullptr;
 }
 

@@ -63,7 +63,7 @@ Inputs openInputs(const char* label)
   {
     QMessageBox::information(pqCoreUtilities::mainWidget(), label,
       QString("There is no %1: open one first.")
-        .arg(parts.empty() ? "part, a CAD file or a trained model" : "scan, a cloud (PCD, PLY) or a depth image"));
+        .arg(parts.empty() ? "part, a CAD file or a trained model" : "scan, a cloud (PCD, PLY, XYZ) or a depth image"));
     return {};
   }
   return { { "Input", parts }, { "Scene", { scan } } };

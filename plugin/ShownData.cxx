@@ -89,5 +89,6 @@ bool isInScene(vtkPVDataInformation* data)
 std::string mappedArray(vtkSMProxy* colors)
 {
   const char* name = colors ? colors->GetSessionProxyManager()->GetProxyName("lookup_tables", colors) : nullptr;
-  return QString(name).section('.', 0, 0).section('_', -1).toStdString(); // Separate_123_Rank.PVLookupTable
+  const QString array = QString(name).section('.', 0, 0); // Separate_123_Rank.PVLookupTable
+  return (array.startsWith("Separate_") ? array.section('_', 2) : array).toStdString();
 }

@@ -113,7 +113,7 @@ bool isOfOthers(vtkSMProxy* colors, vtkSMSourceProxy* estimation)
   for (all->Begin("representations"); !all->IsAtEnd(); all->Next())
   {
     vtkSMSourceProxy* other = typeColors(all->GetProxy()) == colors ? estimationOf(all->GetProxy()) : nullptr;
-    if (other && other != estimation && legendOf(other) != legend)
+    if (other && other != estimation && !legendOf(other).empty() && legendOf(other) != legend)
     {
       return true;
     }

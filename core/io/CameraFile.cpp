@@ -26,7 +26,7 @@ namespace
 constexpr std::size_t MostBytes = 1 << 20;
 constexpr double MostPixels = 65535.0;    // in a row or a column
 constexpr double LeastFocalLength = 0.05; // of the image's width: a pinhole camera of 170 degrees
-constexpr double LeastFocalPixels = 20.0; // of an image whose width is not named: lenses have as many mm
+constexpr double LeastFocalPixels = 20.0; // lenses have as many mm; of a small image half its width
 
 [[noreturn]] void failCamera(const std::string& path, const std::string& what)
 {
@@ -518,7 +518,7 @@ Camera cameraOf(const std::string& path, const nlohmann::json& entries)
   camera.height = size[1];
   const double width = std::max<double>(camera.width, 2.0 * camera.cx);
   const double focal = std::min(camera.fx, camera.fy);
-  const double least = camera.width > 0 ? 0.0 : LeastFocalPixels;
+  const double least = camera.width > 0 ? std::min(LeastFocalPixels, 0.5 * camera.width) : LeastFocalPixels;
   if (focal > 0.0 && focal < std::max(LeastFocalLength * width, least))
   {
     char told[96];

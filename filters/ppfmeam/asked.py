@@ -11,7 +11,7 @@ OF_DETECTION = (*(name for name in OF_SEARCH if name not in ("poses", "preset"))
 def add_options(parser):
     parser.add_argument("part", nargs="?", help="CAD file of the part (.step or .iges, or .stl, .obj, .ply or .off in mm), or trained model of `train`; "
                                      "of a BOP dataset also the number of an object")
-    parser.add_argument("scan", help="scan: .pcd, .ply, .xyz, or a depth image with --camera, in mm; or an image of a BOP dataset, DIR/test/SSSSSS/IIIIII")
+    parser.add_argument("scan", help="scan: .pcd, .ply, a text of points, or a depth image with --camera, in mm; or an image of a BOP dataset, DIR/test/SSSSSS/IIIIII")
     parser.add_argument("--cad", action="append", default=[], metavar="PART", help="in place of PART, once for each type of part in the scan")
     parser.add_argument("--model", action="append", default=[], help="a trained model in place of PART, once for each type of part; its --cad, in the same order, has the faces that are shown and held")
     choices.add_options(parser, "train", "offset", "scale")

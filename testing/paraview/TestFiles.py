@@ -82,7 +82,7 @@ writer.SetInputData(depth)
 writer.Write()
 with open(path("cloud.asc"), "w") as file:
     file.write("X;Y;Z\n0;0;100\n10,0;0;100\n")
-FILES = {"XYZReader": "cloud.asc", "PLYCloudReader": "cloud.ply", "PCDReader": "cloud.pcd", "DepthImageReader": "depth.png"}
+FILES = {"XYZCloudReader": "cloud.asc", "PLYCloudReader": "cloud.ply", "PCDReader": "cloud.pcd", "DepthImageReader": "depth.png"}
 
 
 def readers_of_several_files():

@@ -66,6 +66,8 @@ def tutorial(folder, text):
 def refused(paraview, repository, folder):
     """Files that are no CAD are opened: the sentences, and that no other CAD takes the place of one that is empty."""
     contents = {"image": b"\x89PNG\r\n\x1a\n" + bytes(range(256)) * 9, "random": bytes(range(255, 0, -1)) * 9, "nothing": b"",
+                "named": "solid Geh\u00e4use\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\n"
+                         "endfacet\nendsolid\n".encode(),
                 "empty": b"solid a\nendsolid a\n"}
     for name, content in contents.items():
         with open(f"{folder}/{name}.stl", "wb") as file:
@@ -79,6 +81,7 @@ def refused(paraview, repository, folder):
     for words in ("image.stl was not opened: it is no STL but a PNG image", "random.stl was not opened: it is no STL, or damaged",
                   "nothing.stl was not opened: it is empty", "Success =  true"):
         check(words in said, f"not said: {words}: {said[-3000:]}")
+    check("named.stl" not in said, f"a text with letters beyond ASCII is refused: {said[-3000:]}")
 
 
 def prepare(folder, repository):

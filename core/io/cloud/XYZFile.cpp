@@ -19,6 +19,8 @@ namespace
 {
 constexpr std::size_t MostWithoutNames = 10; // x y z, an intensity, a colour and a normal
 constexpr std::int64_t Beginning = 1 << 16;  // bytes that isXYZ() looks at
+constexpr std::size_t MostHeads = 8;         // lines before the points that may name the columns
+constexpr char Separators[] = { ';', '\t', ',', ' ' };
 constexpr float NotMeasured = std::numeric_limits<float>::quiet_NaN();
 
 [[noreturn]] void failXYZ(const std::string& path, const std::string& what)
@@ -41,6 +43,7 @@ void split(std::string_view line, char separator, std::vector<std::string_view>&
 {
   const std::string_view separators = separator == ' ' ? std::string_view(" \t") : std::string_view(&separator, 1);
   words.clear();
+  line = separator == ' ' ? line.substr(0, line.find_last_not_of(separators) + 1) : line;
   std::size_t end = 0;
   do
   {
@@ -81,10 +84,17 @@ bool numberOf(std::string_view word, char separator, float& value)
   return true;
 }
 
+/// How many letters begin a comment in a line: two of //, one of # or %, 0 of none.
+std::size_t lettersOfComment(std::string_view line)
+{
+  line = trimmed(line);
+  return line.substr(0, 2) == "//" ? 2 : line.substr(0, 1) == "#" || line.substr(0, 1) == "%" ? 1 : 0;
+}
+
 /// What stands between the numbers of a line: a semicolon, a tab, a comma or blanks; 0 when it is no line of a point.
 char separatorOf(std::string_view line, std::vector<std::string_view>& words)
 {
-  for (const char separator : { ';', '\t', ',', ' ' })
+  for (const char separator : Separators)
   {
     split(line, separator, words);
     float value;
@@ -102,6 +112,26 @@ struct Columns
 {
   std::array<int, 3> point{ 0, 1, 2 }, normal{ -1, -1, -1 }, color{ -1, -1, -1 };
   int intensity = -1;
+
+  bool has(std::size_t column) const
+  {
+    return this->any([=](int one) { return one == static_cast<int>(column); });
+  }
+  int last() const
+  {
+    int last = this->intensity;
+    this->any([&](int one) { return (last = std::max(last, one)) < 0; });
+    return last;
+  }
+
+private:
+  template <typename Test>
+  bool any(const Test& test) const
+  {
+    return std::any_of(this->point.begin(), this->point.end(), test) ||
+           std::any_of(this->normal.begin(), this->normal.end(), test) ||
+           std::any_of(this->color.begin(), this->color.end(), test) || test(this->intensity);
+  }
 };
 
 bool isWhole(const std::array<int, 3>& columns)
@@ -163,43 +193,55 @@ public:
     std::string_view other;
     while (this->next())
     {
-      const std::size_t comment = this->Line.substr(0, 2) == "//" ? 2 : this->Line.find_first_not_of("#%");
-      this->Separator = comment == 0 ? separatorOf(this->Line, this->Words) : 0;
-      if (this->Separator != 0)
+      if (const std::size_t letters = lettersOfComment(this->Line); letters > 0)
       {
-        this->nameColumns(heads, other);
-        return;
+        heads.push_back(trimmed(this->Line).substr(letters));
       }
-      std::uint64_t count = 0;
-      if (comment == 0 && parseNumber(this->Line, count))
+      else
       {
-        this->Promised = count;
-        continue;
+        this->Started = this->isNamed(heads) || this->isUnnamed(other);
+        std::uint64_t count = 0;
+        if (this->Started)
+        {
+          return;
+        }
+        if (parseNumber(trimmed(this->Line), count))
+        {
+          this->Promised = count;
+        }
+        else if (!other.empty())
+        {
+          this->fail("has " + quoted(this->Line) + " where a point's x, y and z are expected");
+        }
+        else
+        {
+          other = this->Line;
+          heads.push_back(this->Line);
+        }
       }
-      if (comment == 0 && !other.empty())
+      if (heads.size() > MostHeads)
       {
-        break;
+        heads.erase(heads.begin());
       }
-      heads.push_back(trimmed(this->Line.substr(std::min(comment, this->Line.size()))));
-      other = comment == 0 ? this->Line : other;
     }
-    failXYZ(this->Path, other.empty() ? "has no line with the numbers x, y and z of a point"
-                                      : "has " + quoted(other) + " where a point's x, y and z are expected");
+    failXYZ(this->Path,
+      other.empty() ? "has no line with the numbers x, y and z of a point" : "has no point after " + quoted(other));
   }
 
   /// Takes the point of this line. Throws Error for a line that is no point.
   void take(std::vector<float>& values)
   {
     split(this->Line, this->Separator, this->Words);
-    if (this->Words.size() < this->Width)
+    const std::size_t count = this->Words.size();
+    if (count < this->Width || (!this->HasNames && count > this->Width && !this->Words[this->Width].empty()))
     {
-      this->fail("has " + std::to_string(this->Words.size()) + " numbers, where the first point has " +
-                 std::to_string(this->Width) + ": it is cut off or damaged");
+      this->fail("has " + std::to_string(count) + " words, where the first point has " + std::to_string(this->Width) +
+                 ": it is cut off or damaged");
     }
     for (std::size_t i = 0; i < this->Width; ++i)
     {
-      float value;
-      if (!numberOf(this->Words[i], this->Separator, value))
+      float value = NotMeasured;
+      if ((!this->HasNames || this->Named.has(i)) && !numberOf(this->Words[i], this->Separator, value))
       {
         this->fail("has " + quoted(this->Words[i]) + " where a number is expected");
       }
@@ -207,16 +249,18 @@ public:
     }
   }
 
-  /// Goes to the next line that is not empty; false at the end.
+  /// Goes to the next line with a word, or between tabs without, and beyond the first point to one that is no comment;
+  /// false at the end.
   bool next()
   {
     while (!this->Rest.empty())
     {
       const std::size_t end = std::min(this->Rest.find_first_of("\r\n"), this->Rest.size());
-      this->Line = trimmed(this->Rest.substr(0, end));
+      this->Line = this->Rest.substr(0, end);
       this->Rest.remove_prefix(std::min(end + (this->Rest.substr(end, 2) == "\r\n" ? 2 : 1), this->Rest.size()));
       ++this->Number;
-      if (!this->Line.empty())
+      const bool isEmpty = trimmed(this->Line).empty() && !(this->Separator == '\t' && !this->Line.empty());
+      if (!isEmpty && !(this->Started && lettersOfComment(this->Line) > 0))
       {
         return true;
       }
@@ -236,29 +280,58 @@ private:
     failXYZ(this->Path, "in line " + std::to_string(this->Number) + " " + what);
   }
 
-  void nameColumns(const std::vector<std::string_view>& heads, std::string_view other)
+  /// Whether a line before this one names columns that are numbers in this one.
+  bool isNamed(const std::vector<std::string_view>& heads)
   {
-    this->Width = this->Words.size();
     for (const std::string_view head : heads)
     {
-      split(head, this->Separator, this->Words);
-      const Columns columns = columnsOf(this->Words);
-      if (isWhole(columns.point) && this->Words.size() <= this->Width)
+      for (const char ofHead : Separators)
       {
-        this->HasNames = true;
-        this->Named = columns;
+        split(head, ofHead, this->Words);
+        this->Named = columnsOf(this->Words);
+        if (!isWhole(this->Named.point))
+        {
+          continue;
+        }
+        for (const char separator : Separators)
+        {
+          split(this->Line, separator, this->Words);
+          float value;
+          std::size_t i = 0;
+          while (i < this->Words.size() && (!this->Named.has(i) || numberOf(this->Words[i], separator, value)))
+          {
+            ++i;
+          }
+          if (i == this->Words.size() && this->Named.last() < static_cast<int>(i))
+          {
+            this->HasNames = true;
+            this->Separator = separator;
+            this->Width = i;
+            return true;
+          }
+        }
       }
     }
-    if (!this->HasNames && !other.empty())
+    return false;
+  }
+
+  /// Whether this line is the first point of a text that does not name its columns. Throws Error for the names of
+  /// others, and for too many numbers.
+  bool isUnnamed(std::string_view other)
+  {
+    this->Separator = separatorOf(this->Line, this->Words);
+    this->Width = this->Words.size();
+    if (this->Separator != 0 && !other.empty())
     {
       failXYZ(this->Path, "names its columns " + quoted(other) + ": name x, y and z among them");
     }
-    if (!this->HasNames && this->Width > MostWithoutNames)
+    if (this->Separator != 0 && this->Width > MostWithoutNames)
     {
       this->fail("has " + std::to_string(this->Width) +
                  " numbers: name the columns in a first line, x y z among them; an image of depths is read from PNG, "
                  "TIFF, PGM or PFM");
     }
+    return this->Separator != 0;
   }
 
   const std::string& Path;
@@ -268,7 +341,7 @@ private:
   std::uint64_t Promised = 0;
   std::size_t Number = 0;
   char Separator = 0;
-  bool HasNames = false;
+  bool HasNames = false, Started = false;
   Columns Named;
 };
 
@@ -276,8 +349,10 @@ private:
 class Guess
 {
 public:
-  Guess(const std::vector<float>& values, std::size_t width)
+  /// `isPTS`: with the number of points on top, as texts of laser scanners, whose intensity comes before the colour.
+  Guess(const std::vector<float>& values, std::size_t width, bool isPTS)
     : Values(values)
+    , IsPTS(isPTS)
     , Width(width)
     , Used(width)
   {
@@ -292,10 +367,12 @@ public:
   {
     Columns columns;
     std::size_t first = 3;
-    if (this->Used % 3 == 1 && (this->Used == 4 || this->isColor(4) || this->isNormal(4)))
+    if (this->Used % 3 == 1)
     {
-      columns.intensity = 3;
-      first = 4;
+      const bool isFirst =
+        this->Used == 4 || ((this->isColor(4) || this->isNormal(4)) && (this->IsPTS || !this->isColor(3)));
+      columns.intensity = isFirst ? 3 : static_cast<int>(this->Used) - 1;
+      first = isFirst ? 4 : 3;
     }
     for (std::size_t k = first; k + 3 <= this->Used; k += 3)
     {
@@ -365,6 +442,7 @@ private:
   }
 
   const std::vector<float>& Values;
+  bool IsPTS;
   std::size_t Width, Used;
 };
 
@@ -416,7 +494,7 @@ MeasuredCloud readXYZ(const std::string& path, const Progress& progress)
       path, "is cut off: it promises " + std::to_string(table.promised()) + " points and has " + std::to_string(lines));
   }
   const std::size_t width = table.width();
-  const Columns columns = table.hasNames() ? table.columns() : Guess(values, width).columns();
+  const Columns columns = table.hasNames() ? table.columns() : Guess(values, width, table.promised() > 0).columns();
   MeasuredCloud result;
   result.cloud.points = pointsOf(values, width, columns.point);
   result.cloud.width = static_cast<int>(lines);
@@ -429,7 +507,8 @@ MeasuredCloud readXYZ(const std::string& path, const Progress& progress)
   {
     const std::vector<float> colors = channelsOf(values, width, columns.color);
     const bool areReal =
-      std::any_of(colors.begin(), colors.end(), [](float v) { return std::isfinite(v) && v != std::floor(v); });
+      std::any_of(colors.begin(), colors.end(), [](float v) { return std::isfinite(v) && v != std::floor(v); }) ||
+      std::none_of(colors.begin(), colors.end(), [](float v) { return v > 1.0f; });
     result.colors = colorValues(colors, areReal);
   }
   for (std::size_t i = 0; i < lines && columns.intensity >= 0; ++i)
@@ -444,7 +523,7 @@ bool isXYZ(const std::string& path)
 {
   try
   {
-    const std::string text = readFile(path, Beginning);
+    const std::string text = readText(path, Beginning);
     Table(path, text).start();
     return true;
   }

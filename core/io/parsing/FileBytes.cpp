@@ -86,9 +86,9 @@ std::string readFile(const std::string& path, std::int64_t most)
   return bytes;
 }
 
-std::string readText(const std::string& path)
+std::string readText(const std::string& path, std::int64_t most)
 {
-  std::string bytes = readFile(path);
+  std::string bytes = readFile(path, most);
   const std::string mark = bytes.substr(0, 2);
   const std::size_t low = mark == "\xff\xfe" ? 0 : 1; // where the low byte of a letter is
   if (low == 1 && mark != "\xfe\xff")

@@ -14,9 +14,9 @@ void writeFile(const std::string& path, const std::string& bytes);
 /// unreadable.
 std::string readFile(const std::string& path, std::int64_t most = INT64_MAX);
 
-/// The bytes of a file of text; of one in UTF-16 that begins with a byte order mark, as some programs of Windows write
-/// it, the letters of ASCII, with '?' in place of others.
-std::string readText(const std::string& path);
+/// The bytes of a file of text, as readFile() has them; of one in UTF-16 that begins with a byte order mark, as some
+/// programs of Windows write it, the letters of ASCII, with '?' in place of others.
+std::string readText(const std::string& path, std::int64_t most = INT64_MAX);
 
 /// The extension of a file's name in lower case: ".ply".
 std::string extensionOf(const std::string& path);

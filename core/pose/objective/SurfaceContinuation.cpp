@@ -100,9 +100,9 @@ Points SurfaceContinuation::beyond(const Eigen::Isometry3d& T_scene_model) const
       for (const int to : depth.neighboursOf(from))
       {
         if (steps > this->Reach || to < 0 || !depth.isMeasured(to) || cells.count(to) > 0 ||
-            this->isAtEdge(depth.meanIn(to)) || !this->isSmooth(from, to) ||
-            (isBeside && !this->isSmooth(before.from, to)) || this->isOn(depth.meanIn(to), toModel) == isBeside ||
-            (isBeside && this->isOfBin(depth.meanIn(to))))
+            !this->isSmooth(from, to) || (isBeside && !this->isSmooth(before.from, to)) ||
+            this->isOn(depth.meanIn(to), toModel) == isBeside || (isBeside && this->isOfBin(depth.meanIn(to))) ||
+            this->isAtEdge(depth.meanIn(to)))
         {
           continue;
         }

@@ -56,8 +56,8 @@ double logSaturated(double sum, double many);
 
 /// The rates of a scan, from what was counted of its candidates, by expectation maximization: each tells how often
 /// something is found where the part is as far as it is likely to be right, from the sum of its evidence by the rates
-/// of the step before, and how often it is found anywhere as far as it is wrong. The surface of a sheet, `thickness` in
-/// diameters (TrainedModel::sheetThickness), is like what it lies on: it speaks the less for a candidate the thinner it
-/// is.
-EvidenceRates evidenceRates(const std::vector<EvidenceCounts>& candidates, double thickness = 1.0);
+/// of the step before, and how often it is found anywhere as far as it is wrong. Here what the surface of a
+/// sheet says for a candidate counts min(1, thickness / ThickSheet), `thickness` in diameters
+/// (TrainedModel::sheetThickness), for it is like what it lies on.
+EvidenceRates evidenceRates(const std::vector<EvidenceCounts>& candidates, double thickness);
 }

@@ -4,7 +4,7 @@ import os
 
 from .. import dataset, scripting
 
-CLOUDS = (".pcd", ".ply", ".xyz", ".asc", ".pts")  # .csv and .txt in a folder may be anything
+CLOUDS = tuple(kind for kind in scripting.CLOUDS if kind not in (".csv", ".txt"))  # these may be anything
 
 
 class Scan:

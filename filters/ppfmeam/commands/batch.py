@@ -20,7 +20,7 @@ def options_of_user(arguments=None):
     """Of the command line, or of these words."""
     parser = scripting.Parser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("scans", metavar="SCANS", nargs="?",
-                        help="a dataset in the form of the BOP benchmark; a folder of scans (.pcd, .ply, .xyz or, with "
+                        help="a dataset in the form of the BOP benchmark; a folder of scans (.pcd, .ply, .xyz, .asc, .pts or, with "
                              "--camera and --no-image, depth images); or a text file with a scan in each line, after a tab its image "
                              "where it carries none")
     parser.add_argument("--watch", metavar="FOLDER",

@@ -210,6 +210,7 @@ TEST(CameraFile, intrinsicsAtAnyPlaceOfAFile)
   readCamera.fails("fx: 4.8\nfy: 4.8\ncx: 320\ncy: 240", "focal length 4.8");
   readCamera.fails("focal_length: 8.5\nprincipal_point: [3.6, 2.4]", "focal length 8.5");
   EXPECT_EQ(readCamera("fx: 10\nfy: 10\ncx: 1\ncy: 1\nwidth: 4\nheight: 3").camera.fx, 10.0) << "a small image";
+  readCamera.fails("fx: 8.5\nfy: 8.5\ncx: 80\ncy: 60\nwidth: 160\nheight: 120", "focal length 8.5");
   readCamera.fails("fx: 25\nfy: 25\ncx: 320\ncy: 240\nwidth: 640\nheight: 480", "focal length 25");
 }
 

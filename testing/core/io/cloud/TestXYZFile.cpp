@@ -47,6 +47,11 @@ TEST(XYZFile, columnsByTheirNames)
   }
   EXPECT_EQ(readXYZ("z y x intensity\n3 2 1 0.5").cloud.points[0], Eigen::Vector3f(1, 2, 3)) << "in any order";
   EXPECT_EQ(readXYZ("z y x intensity\n3 2 1 0.5").intensities, std::vector<float>{ 0.5f });
+  const meam::MeasuredCloud labelled = readXYZ("name;time;x;y;z\n# comment\na;12:30;1;2;3\n# another\n;;4;5;6\n");
+  ASSERT_EQ(labelled.cloud.size(), 2u) << "other columns need not be numbers";
+  expectPoint(labelled, 1, 4, 5, 6);
+  expectPoint(readXYZ("x,y,z\n1 2 3\n"), 0, 1, 2, 3);
+  EXPECT_EQ(readXYZ("x y z r g b\n1 2 3 0 1 1\n").colors, (Colors{ 0, 255, 255 }));
 }
 
 TEST(XYZFile, columnsWithoutNames)
@@ -58,6 +63,8 @@ TEST(XYZFile, columnsWithoutNames)
   EXPECT_TRUE(normal.colors.empty());
   EXPECT_EQ(normal.normals[0], Eigen::Vector3f(0.6f, -0.8f, 0));
   EXPECT_EQ(readXYZ("1 2 3 -700 7 8 9\n").colors, (Colors{ 7, 8, 9 })) << "behind an intensity";
+  EXPECT_EQ(readXYZ("1\n1 2 3 50 7 8 9\n").colors, (Colors{ 7, 8, 9 })) << "in a PTS file, too";
+  EXPECT_EQ(readXYZ("1 2 3 7 8 9 255\n").colors, (Colors{ 7, 8, 9 })) << "with what is behind it";
   const meam::MeasuredCloud all = readXYZ("1 2 3 7 8 9 0 0 -1\n4 5 6 10 11 12 0 1 0\n");
   EXPECT_EQ(all.colors, (Colors{ 7, 8, 9, 10, 11, 12 }));
   EXPECT_EQ(all.normals[1], Eigen::Vector3f(0, 1, 0));
@@ -73,17 +80,24 @@ TEST(XYZFile, whatWasNotMeasuredIsNaN)
     EXPECT_FALSE(data.cloud.points[i].allFinite()) << i;
   }
   expectPoint(data, 2, 1, 2, 3);
+  const meam::MeasuredCloud tabs = readXYZ("x\ty\tz\tintensity\n1\t2\t3\t\n\t\t\t\n\t\t\t30\n");
+  ASSERT_EQ(tabs.cloud.size(), 3u);
+  expectPoint(tabs, 0, 1, 2, 3);
+  EXPECT_EQ(tabs.intensities[2], 30.0f);
 }
 
 TEST(XYZFile, whatIsNoTextOfPoints)
 {
   readXYZ.fails("", "no line");
   readXYZ.fails("# nothing\n", "no line");
-  readXYZ.fails("1 2\n", "'1 2' where a point's");
+  readXYZ.fails("1 2\n", "no point after '1 2'");
+  readXYZ.fails("X Y Z\n", "no point after 'X Y Z'");
+  readXYZ.fails("X Y Z\n1 2 abc\n", "line 2 has '1 2 abc'");
   readXYZ.fails("time,value,size\n1,2,3\n", "name x, y and z among them");
-  readXYZ.fails("first\nsecond\n1 2 3\n", "'first'");
-  readXYZ.fails("x y z\n1 2 3\n4 5\n", "line 3 has 2 numbers, where the first point has 3");
+  readXYZ.fails("first\nsecond\n1 2 3\n", "line 2 has 'second'");
+  readXYZ.fails("x y z\n1 2 3\n4 5\n", "line 3 has 2 words, where the first point has 3");
   readXYZ.fails("1 2 3\r\n4 5 6\r\n4 b 6\r\n", "line 3 has 'b'");
+  readXYZ.fails("1 2 3\n4 5 6 7 8 9\n", "line 2 has 6 words");
   readXYZ.fails("3\n1 2 3\n4 5 6\n", "promises 3 points and has 2");
   readXYZ.fails("1 2 3 4 5 6 7 8 9 10 11\n", "has 11 numbers: name the columns");
 }
@@ -93,5 +107,11 @@ TEST(XYZFile, isToldByItsBeginning)
   const files::Folder folder;
   EXPECT_TRUE(meam::isXYZ(folder.write("a.csv", "x,y,z\n1,2,3\n")));
   EXPECT_FALSE(meam::isXYZ(folder.write("b.csv", "scene_id,im_id,obj_id,score,R,t,time\n1,2,3,0.5,1 0 0,1 2 3,-1\n")));
+  EXPECT_TRUE(meam::isXYZ(folder.write("c.txt", std::string("\xff\xfe"
+                                                            "1\0 \0"
+                                                            "2\0 \0"
+                                                            "3\0",
+                                                  12))))
+    << "in UTF-16";
   EXPECT_FALSE(meam::isXYZ("/no/such/file.xyz"));
 }

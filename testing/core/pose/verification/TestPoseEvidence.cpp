@@ -109,10 +109,10 @@ TEST(PoseEvidence, RatesOfEdgesAreThoseOfTheScan)
     candidates[k].edgesFound = isRight ? 900.0 : 100.0;
     candidates[k].edgesMissing = isRight ? 100.0 : 900.0;
   }
-  const meam::EvidenceRates rates = meam::evidenceRates(candidates);
+  const meam::EvidenceRates rates = meam::evidenceRates(candidates, 1.0);
   EXPECT_NEAR(rates.edges.found, (1800.0 + 150.0 * 0.75) / 2150.0, 1e-12);
   EXPECT_NEAR(rates.edges.chance, (18 * 100.0 + 150.0 * 0.3) / 18150.0, 1e-12);
-  const meam::EvidenceRates usual = meam::evidenceRates({});
+  const meam::EvidenceRates usual = meam::evidenceRates({}, 1.0);
   EXPECT_DOUBLE_EQ(usual.edges.found, 0.75);
   EXPECT_DOUBLE_EQ(usual.edges.chance, 0.3);
 
@@ -121,7 +121,7 @@ TEST(PoseEvidence, RatesOfEdgesAreThoseOfTheScan)
   {
     std::swap(counts.edgesFound, counts.edgesMissing);
   }
-  const meam::EvidenceRates misleading = meam::evidenceRates(candidates);
+  const meam::EvidenceRates misleading = meam::evidenceRates(candidates, 1.0);
   EXPECT_GT(misleading.edges.found, misleading.edges.chance);
   EXPECT_LT(misleading.edges.found - misleading.edges.chance, 0.03);
 }
@@ -136,7 +136,7 @@ TEST(PoseEvidence, TheSurfaceOfASheetTellsNoRates)
     candidates[k].edgesFound = k < 2 ? 900.0 : 100.0;
     candidates[k].edgesMissing = k < 2 ? 100.0 : 900.0;
   }
-  EXPECT_LT(meam::evidenceRates(candidates).edges.found, 0.35);
+  EXPECT_LT(meam::evidenceRates(candidates, 1.0).edges.found, 0.35);
   const meam::EvidenceRates rates = meam::evidenceRates(candidates, 0.0);
   EXPECT_NEAR(rates.edges.found, (1800.0 + 150.0 * 0.75) / 2150.0, 1e-3);
   EXPECT_NEAR(rates.edges.chance, (18 * 100.0 + 150.0 * 0.3) / 18150.0, 1e-3);
@@ -154,15 +154,15 @@ TEST(PoseEvidence, RatesOfOutlinesAreThoseOfTheScan)
     candidates[k].ends = k == 4 ? 95.0 : 10.0;
     candidates[k].goesOn = k == 4 ? 5.0 : 90.0;
   }
-  const meam::EvidenceRates rates = meam::evidenceRates(candidates);
+  const meam::EvidenceRates rates = meam::evidenceRates(candidates, 1.0);
   EXPECT_NEAR(rates.outline.found, (95.0 + 90.0 * 0.9) / 190.0, 1e-12);
   EXPECT_NEAR(rates.outline.chance, (9 * 10.0 + 90.0 * 0.55) / 990.0, 1e-12);
   // However few outlines end where the surface is, three quarters of a part's would.
   candidates[4].ends = 5.0;
   candidates[4].goesOn = 995.0;
-  EXPECT_DOUBLE_EQ(meam::evidenceRates(candidates).outline.found, 0.75);
+  EXPECT_DOUBLE_EQ(meam::evidenceRates(candidates, 1.0).outline.found, 0.75);
   candidates.erase(candidates.begin() + 4); // the others tell nothing
-  EXPECT_NEAR(meam::evidenceRates(candidates).outline.found, 0.9, 1e-12);
+  EXPECT_NEAR(meam::evidenceRates(candidates, 1.0).outline.found, 0.9, 1e-12);
 }
 
 TEST(PoseEvidence, WhatLiesBehindTheFloorCannotBeThere)
