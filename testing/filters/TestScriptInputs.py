@@ -102,7 +102,7 @@ told = works("detect.py", *MODEL, "--scene", "scan.ply", "--scene-scale", "1000"
 check("lie on the grid of a pinhole camera" in told, told)
 all_true(matrices("c.txt"), "a PLY cloud without its camera")
 refuses("1000", "detect.py", *MODEL, "--scene", "scan.ply", "--camera", "camera.json")
-refuses("only a .pcd or .ply", "detect.py", *MODEL, "--scene", "part.stl", "--camera", "camera.json")
+refuses("only a cloud (.pcd, .ply, ", "detect.py", *MODEL, "--scene", "part.stl", "--camera", "camera.json")
 refuses("--camera", "detect.py", *MODEL, "--depth", "depth.png", status=2)
 for option, name, other in (("--out", "poses.json", "--json"), ("--json", "poses.csv", "--out"), ("--matrices", "found.html", "--report")):
     refuses(f"give {other} {name}", "detect.py", *MODEL, "--scene", "scan.ply", option, name, status=2)
