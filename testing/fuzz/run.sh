@@ -21,9 +21,11 @@ readers=("$@")
 fuzz() { # READER
   local reader=$1 log=$build/$1.log
   mkdir -p "$build/corpus/$reader" "$build/found"
+  local folders=("$build/corpus/$reader" "$here/corpus/$reader")
+  [ ! -d "$here/reached/$reader" ] || folders+=("$here/reached/$reader") # of a new reader there is none
   MEAM_READER=$reader "$build/bin/meamFuzz" -max_total_time="$seconds" -max_len=65536 -len_control=1000 \
     -dict="$here/words.dict" -timeout=10 -rss_limit_mb=4096 -use_value_profile=1 -print_final_stats=1 \
-    -artifact_prefix="$build/found/$reader-" "$build/corpus/$reader" "$here/corpus/$reader" "$here/reached/$reader" >"$log" 2>&1 &
+    -artifact_prefix="$build/found/$reader-" "${folders[@]}" >"$log" 2>&1 &
   local status=0 runs coverage found=-
   wait $! || status=$?
   rm -rf "/dev/shm/meam-fuzz-$!-$reader" "${TMPDIR:-/tmp}/meam-fuzz-$!-$reader" # a crash leaves it
