@@ -54,7 +54,7 @@ public:
     this->Solid->setSpecialValueText("all");
     this->CADUnit = this->addUnit("CADUnit", "CAD's unit", "The unit of a mesh. STEP and IGES files tell theirs.");
     this->Scan = this->addFile("Scan", "Scan", "Scan (*.pcd *.ply *.xyz *.csv *.txt *.asc *.pts *.png *.tif *.tiff *.pgm *.pfm)",
-      "One scan of the bin: a cloud (PCD, PLY), best organized, or a depth image (PNG, TIFF, PGM, PFM).");
+      "One scan of the bin: a cloud (PCD, PLY, or a text of points), best organized, or a depth image (PNG, TIFF, PGM, PFM).");
     this->Unit = this->addUnit(
       "Unit", "Scan's unit", "The unit of the cloud's points. A depth image has its own in the calibration.");
     this->Calibration = this->addFile("Calibration", "Calibration", "Calibration (*.yaml *.yml *.json *.xml)",

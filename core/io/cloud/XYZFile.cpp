@@ -113,24 +113,19 @@ struct Columns
   std::array<int, 3> point{ 0, 1, 2 }, normal{ -1, -1, -1 }, color{ -1, -1, -1 };
   int intensity = -1;
 
+  std::array<int, 10> all() const
+  {
+    return { point[0], point[1], point[2], normal[0], normal[1], normal[2], color[0], color[1], color[2], intensity };
+  }
   bool has(std::size_t column) const
   {
-    return this->any([=](int one) { return one == static_cast<int>(column); });
+    const std::array<int, 10> all = this->all();
+    return std::find(all.begin(), all.end(), static_cast<int>(column)) != all.end();
   }
   int last() const
   {
-    int last = this->intensity;
-    this->any([&](int one) { return (last = std::max(last, one)) < 0; });
-    return last;
-  }
-
-private:
-  template <typename Test>
-  bool any(const Test& test) const
-  {
-    return std::any_of(this->point.begin(), this->point.end(), test) ||
-           std::any_of(this->normal.begin(), this->normal.end(), test) ||
-           std::any_of(this->color.begin(), this->color.end(), test) || test(this->intensity);
+    const std::array<int, 10> all = this->all();
+    return *std::max_element(all.begin(), all.end());
   }
 };
 
@@ -189,6 +184,10 @@ public:
   /// Goes to the first point. Throws Error when there is none, or a line before it that is neither a comment nor names.
   void start()
   {
+    if (this->Rest.find('\0') != std::string_view::npos)
+    {
+      failXYZ(this->Path, "is not a text: it is binary, or packed");
+    }
     std::vector<std::string_view> heads;
     std::string_view other;
     while (this->next())
@@ -209,7 +208,7 @@ public:
         {
           this->Promised = count;
         }
-        else if (!other.empty())
+        else if (!other.empty() || std::isdigit(static_cast<unsigned char>(trimmed(this->Line)[0])))
         {
           this->fail("has " + quoted(this->Line) + " where a point's x, y and z are expected");
         }

@@ -90,7 +90,9 @@ TEST(XYZFile, whatIsNoTextOfPoints)
 {
   readXYZ.fails("", "no line");
   readXYZ.fails("# nothing\n", "no line");
-  readXYZ.fails("1 2\n", "no point after '1 2'");
+  readXYZ.fails("1 2\n", "line 1 has '1 2' where a point's");
+  readXYZ.fails("1 2 1e400\n", "line 1 has '1 2 1e400'");
+  readXYZ.fails(std::string("1 2 3\n\0", 7), "not a text");
   readXYZ.fails("X Y Z\n", "no point after 'X Y Z'");
   readXYZ.fails("X Y Z\n1 2 abc\n", "line 2 has '1 2 abc'");
   readXYZ.fails("time,value,size\n1,2,3\n", "name x, y and z among them");
