@@ -9,20 +9,56 @@
 #include "vtkSMRenderViewProxy.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <iterator>
 #include <string>
 
 namespace
 {
-/// A fifth of the view's height, and letters of a map.
+constexpr double Length = 0.22; // a share of the view's height
+
+/// With letters of a map.
 void showSmall(vtkSMProxy* legend)
 {
-  vtkSMPropertyHelper(legend, "ScalarBarLength").Set(0.22);
+  vtkSMPropertyHelper(legend, "ScalarBarLength").Set(Length);
   vtkSMPropertyHelper(legend, "ScalarBarThickness").Set(10);
   vtkSMPropertyHelper(legend, "TitleFontSize").Set(12);
   vtkSMPropertyHelper(legend, "LabelFontSize").Set(12);
   legend->UpdateVTKObjects();
+}
+
+std::string arrayOf(vtkSMProxy* legend) { return mappedArray(vtkSMPropertyHelper(legend, "LookupTable").GetAsProxy()); }
+
+bool isOurs(const std::string& array)
+{
+  const char* ours[] = { "Rank", "PartId", "Residual", "Possible", "Obstruction", "PoseOutcome" };
+  return std::find(std::begin(ours), std::end(ours), array) != std::end(ours);
+}
+
+enum Location // as VTK has them
+{
+  AnyLocation,
+  LowerLeft,
+  LowerRight,
+  LowerCenter,
+  UpperLeft,
+  UpperRight
+};
+
+constexpr double Places[] = { 0.02, 0.26, 0.5, 0.74 }; // of legends at the right, upwards, as shares of the view's height
+
+int locationOf(vtkSMProxy* legend) { return vtkSMPropertyHelper(legend, "WindowLocation").GetAsInt(); }
+
+/// Where a legend stands at the right; negative: elsewhere.
+double placeOf(vtkSMProxy* legend)
+{
+  const int location = locationOf(legend);
+  if (location == AnyLocation && vtkSMPropertyHelper(legend, "Position").GetAsDouble(0) > 0.5)
+  {
+    return vtkSMPropertyHelper(legend, "Position").GetAsDouble(1);
+  }
+  return location == LowerRight ? Places[0] : location == UpperRight ? Places[3] : -1.0;
 }
 
 /// Whether a color map is used by what is visible in the view. What shows its own colors uses none.
@@ -51,28 +87,29 @@ void Legends::onAdded(vtkSMRenderViewProxy* view, vtkSMProxy* legend, bool isOfS
   {
     return;
   }
-  const std::string array = mappedArray(vtkSMPropertyHelper(legend, "LookupTable").GetAsProxy());
-  const char* ours[] = { "Rank", "PartId", "Residual", "Possible", "Obstruction", "PoseOutcome" };
-  if (std::find(std::begin(ours), std::end(ours), array) != std::end(ours))
+  const std::string array = arrayOf(legend);
+  if (isOurs(array))
   {
     showSmall(legend);
   }
   if (array == "Possible" || array == "Residual") // above stands the answer
   {
     const double leftOfPicks[2] = { 0.42, 0.02 };
-    constexpr int AnyLocation = 0, LowerCenter = 3;
     vtkSMPropertyHelper(legend, "WindowLocation").Set(array == "Possible" ? LowerCenter : AnyLocation);
     vtkSMPropertyHelper(legend, "Position").Set(leftOfPicks, 2);
     legend->UpdateVTKObjects();
   }
   this->hideUnused(legend);
+  this->place(legend);
 }
 
 void Legends::onModified(vtkObject* caller, unsigned long, void* data)
 {
   if (data && std::strcmp(static_cast<const char*>(data), "Visibility") == 0)
   {
-    this->hideUnused(vtkSMProxy::SafeDownCast(caller));
+    auto* legend = vtkSMProxy::SafeDownCast(caller);
+    this->hideUnused(legend);
+    this->place(legend);
   }
 }
 
@@ -85,5 +122,35 @@ void Legends::hideUnused(vtkSMProxy* legend)
     {
       vtkSMPropertyHelper(legend, "Visibility").Set(0);
     }
+  }
+}
+
+void Legends::place(vtkSMProxy* legend)
+{
+  const auto isVisible = [](vtkSMProxy* one) { return one && vtkSMPropertyHelper(one, "Visibility").GetAsInt() != 0; };
+  const auto own = std::find_if(
+    this->Known.begin(), this->Known.end(), [&](const auto& known) { return known.second == legend; });
+  if (own == this->Known.end() || !isVisible(legend) || !isOurs(arrayOf(legend)))
+  {
+    return;
+  }
+  const auto isFree = [&](double place)
+  {
+    return std::none_of(this->Known.begin(), this->Known.end(),
+      [&](const auto& known)
+      {
+        return known.first == own->first && known.second != legend && isVisible(known.second) &&
+               std::abs(placeOf(known.second) - place) < Length;
+      });
+  };
+  const auto* const place = std::find_if(std::begin(Places), std::end(Places), isFree);
+  const int location = locationOf(legend);
+  const bool isInOtherCorner = location == LowerLeft || location == UpperLeft || location == UpperRight; // by ParaView
+  if (place != std::end(Places) && (isInOtherCorner || !isFree(placeOf(legend))))
+  {
+    const double position[2] = { 0.92, *place };
+    vtkSMPropertyHelper(legend, "WindowLocation").Set(AnyLocation);
+    vtkSMPropertyHelper(legend, "Position").Set(position, 2);
+    legend->UpdateVTKObjects();
   }
 }

@@ -20,6 +20,8 @@ public:
 private:
   void onModified(vtkObject* caller, unsigned long, void* data);
   void hideUnused(vtkSMProxy* legend);
+  /// Ours stand one above the other at the right, where their names do not meet those of others in narrow views.
+  void place(vtkSMProxy* legend);
 
   std::vector<std::pair<vtkWeakPointer<vtkSMRenderViewProxy>, vtkWeakPointer<vtkSMProxy>>> Known;
 };

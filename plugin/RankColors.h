@@ -22,7 +22,7 @@ inline constexpr const char* RankColors = R"({ "array_lookup_tables": { "Rank": 
   "IndexedLookup": 1,
   "AutomaticRescaleRangeMode": -1,
   "AnnotationsInitialized": 1,
-  "Annotations": [ "0", "part 1", "1", "part 2", "2", "part 3", "3", "part 4", "4", "part 5", "5", "part 6" ],
+  "Annotations": [ "0", "part 1", "1", "part 2" ],
   "IndexedColors": [ 0.302, 0.686, 0.780,  0.902, 0.494, 0.133,  0.549, 0.337, 0.647,  0.604, 0.757, 0.239,
                      0.655, 0.424, 0.286,  0.000, 1.000, 0.800,  1.000, 0.000, 0.902,  0.902, 0.902, 0.702,
                      0.302, 0.000, 1.000,  0.000, 1.000, 0.000,  1.000, 0.800, 1.000,  0.902, 0.000, 0.400 ],

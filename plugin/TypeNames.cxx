@@ -17,6 +17,7 @@
 #include "vtkSMTransferFunctionManager.h"
 #include "vtkSMViewProxy.h"
 
+#include <algorithm>
 #include <cstring>
 #include <string>
 #include <vector>
@@ -52,14 +53,22 @@ vtkSMSourceProxy* estimationOf(vtkSMProxy* representation)
 
 std::string nameOf(int type) { return "part " + std::to_string(type + 1); }
 
-Texts legendOf(vtkSMSourceProxy* estimation)
+/// Of the types of the estimation or, when there is none, of those that the data have.
+Texts legendOf(vtkSMProxy* representation, vtkSMSourceProxy* estimation)
 {
   Texts legend;
-  vtkPVArrayInformation* names = estimation->GetDataInformation(0)->GetArrayInformation("PartName", vtkDataObject::FIELD);
+  vtkPVArrayInformation* names =
+    estimation ? estimation->GetDataInformation(0)->GetArrayInformation("PartName", vtkDataObject::FIELD) : nullptr;
   for (int type = 0; names && type < names->GetNumberOfTuples(); ++type)
   {
     const bool isKnown = type < names->GetNumberOfStringValues(); // of many only the first ones are
     legend.insert(legend.end(), { std::to_string(type), isKnown ? names->GetStringValue(type) : nameOf(type) });
+  }
+  vtkPVArrayInformation* types =
+    estimation ? nullptr : ShownData(representation).data()->GetArrayInformation("PartId", vtkDataObject::POINT);
+  for (int type = 0; types && type <= types->GetComponentRange(0)[1]; ++type)
+  {
+    legend.insert(legend.end(), { std::to_string(type), nameOf(type) });
   }
   return legend;
 }
@@ -104,25 +113,39 @@ bool isUsers(vtkSMProxy* colors)
   return false;
 }
 
-/// Whether representations of another estimation have the color map, for other types.
-bool isOfOthers(vtkSMProxy* colors, vtkSMSourceProxy* estimation)
+/// What is colored by types of part, but for one representation.
+std::vector<vtkSMProxy*> othersOf(vtkSMProxy* representation)
 {
-  const Texts legend = legendOf(estimation);
+  std::vector<vtkSMProxy*> others;
   vtkNew<vtkSMProxyIterator> all;
-  all->SetSession(colors->GetSession());
+  all->SetSession(representation->GetSession());
   for (all->Begin("representations"); !all->IsAtEnd(); all->Next())
   {
-    vtkSMSourceProxy* other = typeColors(all->GetProxy()) == colors ? estimationOf(all->GetProxy()) : nullptr;
-    if (other && other != estimation && !legendOf(other).empty() && legendOf(other) != legend)
+    if (all->GetProxy() != representation && typeColors(all->GetProxy()) && ShownData(all->GetProxy()).source)
     {
-      return true;
+      others.push_back(all->GetProxy());
     }
   }
-  return false;
+  return others;
 }
 
-/// Gives the representation a color map of its own, and that the legend's place.
-vtkSMProxy* separateColors(vtkSMProxy* representation, vtkSMProxy* shared)
+/// Whether representations of another estimation have the color map, for other types.
+bool isOfOthers(vtkSMProxy* colors, vtkSMProxy* representation, vtkSMSourceProxy* estimation)
+{
+  const Texts legend = legendOf(representation, estimation);
+  const std::vector<vtkSMProxy*> others = othersOf(representation);
+  return std::any_of(others.begin(), others.end(),
+    [&](vtkSMProxy* other)
+    {
+      vtkSMSourceProxy* from = estimationOf(other);
+      const Texts theirs = typeColors(other) == colors && from != estimation ? legendOf(other, from) : Texts();
+      return !theirs.empty() && theirs != legend;
+    });
+}
+
+/// Gives the representation the color map of what else shows its estimation or, when nothing does, one of its own, and that
+/// the legend's place.
+vtkSMProxy* separateColors(vtkSMProxy* representation, vtkSMSourceProxy* estimation, vtkSMProxy* shared)
 {
   auto* shown = vtkSMPVRepresentationProxy::SafeDownCast(representation);
   if (!shown || !shown->GetProperty("UseSeparateColorMap"))
@@ -132,7 +155,18 @@ vtkSMProxy* separateColors(vtkSMProxy* representation, vtkSMProxy* shared)
   vtkSMViewProxy* view = vtkSMViewProxy::FindView(shown);
   const bool hasLegend = view && shown->IsScalarBarVisible(view);
   vtkSMPropertyHelper(shown, "UseSeparateColorMap").Set(1);
-  shown->SetScalarColoring("PartId", vtkSMPropertyHelper(shown, "ColorArrayName").GetInputArrayAssociation());
+  const std::vector<vtkSMProxy*> others = othersOf(shown);
+  const auto same = std::find_if(others.begin(), others.end(),
+    [&](vtkSMProxy* other) { return typeColors(other) != shared && estimationOf(other) == estimation; });
+  if (same != others.end())
+  {
+    vtkSMPropertyHelper(shown, "LookupTable").Set(typeColors(*same));
+    shown->UpdateVTKObjects();
+  }
+  else
+  {
+    shown->SetScalarColoring("PartId", vtkSMPropertyHelper(shown, "ColorArrayName").GetInputArrayAssociation());
+  }
   if (hasLegend)
   {
     vtkNew<vtkSMTransferFunctionManager> manager;
@@ -148,21 +182,30 @@ void addMEAMTypeNames() { vtkMEAMConversion::setFileOf(fileOf); }
 void nameTypes(vtkSMProxy* representation)
 {
   vtkSMProxy* colors = typeColors(representation);
-  vtkSMSourceProxy* estimation = colors ? estimationOf(representation) : nullptr;
-  const Texts legend = estimation ? legendOf(estimation) : Texts();
+  if (!colors || !ShownData(representation).source)
+  {
+    return;
+  }
+  vtkSMSourceProxy* estimation = estimationOf(representation);
+  const Texts legend = legendOf(representation, estimation);
   if (legend.empty() || legend == legendIn(colors))
   {
     return;
   }
-  if (isOfOthers(colors, estimation))
+  if (isOfOthers(colors, representation, estimation))
   {
-    colors = separateColors(representation, colors);
+    colors = separateColors(representation, estimation, colors);
   }
   if (!colors || isUsers(colors))
   {
     return;
   }
-  if (legendIn(colors).empty()) // one of its own begins without ours
+  const Texts before = legendIn(colors);
+  if (!estimation && before.size() > legend.size() && std::equal(legend.begin(), legend.end(), before.begin()))
+  {
+    return; // other data have more types
+  }
+  if (before.empty()) // one of its own begins without ours
   {
     vtkNew<vtkSMTransferFunctionManager> manager;
     colors->Copy(manager->GetColorTransferFunction("PartId", colors->GetSessionProxyManager()), "vtkSMProxyProperty");

@@ -23,8 +23,8 @@ def check(condition, message):
         raise AssertionError(message)
 
 
-def drawn(view):
-    return pixels(os.path.join(folder.name, "view.png"), view, [400, 300])
+def drawn(view, size=(400, 300)):
+    return pixels(os.path.join(folder.name, "view.png"), view, list(size))
 
 
 def answers(view):
@@ -203,6 +203,24 @@ picture = drawn(view)
 for name, color in (("green", RANKS["green"]), ("yellow", RANKS["yellow"]), ("violet", (150, 60, 190)), ("red", RANKS["red"])):
     check(share(picture, color) > 0.0001, f"no {name} point: {share(picture, color)}")
 
+def check_legends(view, number):
+    """None meets another one in a narrow view: what is drawn with all is what each draws alone."""
+    shown = [r for r in view.Representations if r.GetXMLName() == "ScalarBarWidgetRepresentation" and r.Visibility]
+    check(len(shown) == number, f"{len(shown)} legends are shown")
+    for legend in shown:
+        legend.Visibility = 0
+    view.ViewSize, alone = [100, 800], []
+    empty = drawn(view, view.ViewSize)
+    for legend in shown:
+        legend.Visibility = 1
+        alone.append((drawn(view, view.ViewSize) != empty).any(axis=1))
+        legend.Visibility = 0
+    for legend in shown:
+        legend.Visibility = 1
+    check(all(one.sum() > 100 for one in alone) and max(sum(one.astype(int) for one in alone)) == 1,
+          f"legends at {[(r.WindowLocation, list(r.Position)) for r in shown]} meet")
+
+
 # Types of part are called by their files; the legend lists those that there are.
 view = simple.CreateRenderView()
 parts = []
@@ -229,10 +247,22 @@ others = simple.MEAMPoseEstimation(registrationName="Others", Input=parts[:2], S
 copies = simple.Show(simple.OutputPort(others, 2), view)
 copies.SetScalarBarVisibility(view, True)
 own = copies.LookupTable
+labels = simple.Show(simple.OutputPort(others, 0), view)
+check(labels.LookupTable.SMProxy is own.SMProxy, "the labels of an estimation have another map than its copies")
 check(list(table.Annotations) == ["0", "flap", "1", "knob"], f"another estimation has written {table.Annotations}")
 check(list(own.Annotations) == ["0", "hole plate", "1", "flap"] and list(own.IndexedColors) == list(table.IndexedColors),
       f"the legend of another estimation has {own.Annotations}")
 check(simple.GetScalarBar(own, view).ScalarBarLength < 0.3, "its legend is large")
+simple.GetRepresentation(simple.OutputPort(types, 0), view).SetScalarBarVisibility(view, True)
+check_legends(view, 2)
+unnamed = simple.Show(simple.Calculator(Input=simple.PoseReader(FileName=os.path.join(folder.name, "poses.txt")), ResultArrayName="PartId", Function="Rank - 1"), view)
+simple.ColorBy(unnamed, ("POINTS", "PartId"))
+simple.Render(view)
+unnamed.SetScalarBarVisibility(view, True)
+check(list(unnamed.LookupTable.Annotations[1::2]) == [f"part {k + 1}" for k in range(12)] and list(table.Annotations) == ["0", "flap", "1", "knob"],
+      f"the legend of twelve types without names has {unnamed.LookupTable.Annotations}, that of the files {table.Annotations}")
+check_legends(view, 3)
+simple.Delete(unnamed.Input)
 with open(os.path.join(os.path.dirname(ppfmeam.__file__), "report", "page.js")) as file:
     palette = re.search(r"palette = \[(.*?)\]", file.read(), re.DOTALL).group(1)
 check(["#{:02x}{:02x}{:02x}".format(*(round(255 * c) for c in table.IndexedColors[3 * k:3 * k + 3])) for k in range(12)]
