@@ -14,8 +14,10 @@
 #include "vtkSmartPointer.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkStructuredGrid.h"
+#include "vtksys/SystemTools.hxx"
 
 #include <algorithm>
+#include <fstream>
 
 namespace
 {
@@ -28,6 +30,22 @@ meam::Camera cameraWithSize(
   camera.height = imageSize[1] > 0 ? imageSize[1] : camera.height;
   return camera;
 }
+}
+
+std::optional<std::string> vtkMEAMCloudReader::StartOf(
+  const char* fileName, std::initializer_list<const char*> extensions)
+{
+  const std::string name = fileName ? fileName : "";
+  const std::string extension = vtksys::SystemTools::LowerCase(vtksys::SystemTools::GetFilenameLastExtension(name));
+  std::ifstream file(name, std::ios::binary);
+  if (!file || std::find(extensions.begin(), extensions.end(), extension) == extensions.end())
+  {
+    return std::nullopt;
+  }
+  std::string start(4, ' ');
+  file.read(start.data(), static_cast<std::streamsize>(start.size()));
+  start.resize(static_cast<std::size_t>(file.gcount()));
+  return start;
 }
 
 bool vtkMEAMCloudReader::HasCamera() const

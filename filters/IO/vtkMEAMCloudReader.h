@@ -12,6 +12,9 @@
 
 #include <array>
 #include <functional>
+#include <initializer_list>
+#include <optional>
+#include <string>
 
 namespace meam
 {
@@ -33,6 +36,9 @@ public:
 protected:
   vtkMEAMCloudReader() = default;
   ~vtkMEAMCloudReader() override = default;
+
+  /** The first bytes of a file with one of these extensions; without a value: it has another one, or is not there. */
+  static std::optional<std::string> StartOf(const char* fileName, std::initializer_list<const char*> extensions);
 
   int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestDataObject(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;

@@ -4,7 +4,6 @@
 #include "io/cloud/PCDFile.h"
 
 #include "vtkObjectFactory.h"
-#include "vtksys/SystemTools.hxx"
 
 vtkStandardNewMacro(vtkMEAMPCDReader);
 
@@ -24,12 +23,7 @@ std::array<int, 2> sizeOf(const char* fileName)
 }
 }
 
-int vtkMEAMPCDReader::CanReadFile(const char* fileName)
-{
-  const std::string name = fileName ? fileName : "";
-  const std::string extension = vtksys::SystemTools::LowerCase(vtksys::SystemTools::GetFilenameLastExtension(name));
-  return extension == ".pcd" && sizeOf(fileName)[0] > 0 ? 1 : 0;
-}
+int vtkMEAMPCDReader::CanReadFile(const char* fileName) { return StartOf(fileName, { ".pcd" }) ? 1 : 0; }
 
 std::array<int, 2> vtkMEAMPCDReader::GridSize() { return sizeOf(this->FileName); }
 

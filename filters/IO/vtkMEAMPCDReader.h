@@ -33,7 +33,7 @@ class PPFMEAMIO_EXPORT vtkMEAMPCDReader : public vtkMEAMCloudReader
 public:
   static vtkMEAMPCDReader* New();
   vtkTypeMacro(vtkMEAMPCDReader, vtkMEAMCloudReader);
-  /** 1 when the file has the extension pcd and a header that can be read. */
+  /** 1 when the file has the extension pcd: no other reader takes those, and Update says what is wrong with it. */
   int CanReadFile(const char* fileName);
 
 protected:

@@ -28,7 +28,7 @@ class PPFMEAMIO_EXPORT vtkMEAMPLYReader : public vtkMEAMCloudReader
 public:
   static vtkMEAMPLYReader* New();
   vtkTypeMacro(vtkMEAMPLYReader, vtkMEAMCloudReader);
-  /** 1 when the file is a PLY file with points and no faces. */
+  /** 1 when the file is a PLY file with points and no faces, or is called so and is none, which Update says. */
   int CanReadFile(const char* fileName);
 
 protected:

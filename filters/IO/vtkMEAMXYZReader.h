@@ -20,7 +20,10 @@ class PPFMEAMIO_EXPORT vtkMEAMXYZReader : public vtkMEAMCloudReader
 public:
   static vtkMEAMXYZReader* New();
   vtkTypeMacro(vtkMEAMXYZReader, vtkMEAMCloudReader);
-  /** 1 when the file begins with points in lines, after their names or without. */
+  /**
+   * 1 when the file begins with points in lines, after their names or without, and when it is called .xyz, .asc or .pts
+   * and begins with no number at all, which Update says.
+   */
   int CanReadFile(const char* fileName);
 
 protected:

@@ -16,7 +16,7 @@ import sys
 import tempfile
 import xml.etree.ElementTree as ElementTree
 
-from clicks import (APPLY, BROWSER, LONGEST, PROPERTIES, accept_inputs, check, choice, connect, event, expect, files, filter_of_menu, item,
+from clicks import (APPLY, BROWSER, LONGEST, PANEL, PROPERTIES, accept_inputs, check, choice, connect, event, expect, files, filter_of_menu, item,
                     menu, number, play, point_and_press, shoot, start, view)
 
 RED, GREEN, BROWN = (220, 30, 30), (40, 170, 50), (140, 92, 51)
@@ -69,16 +69,23 @@ def refused(paraview, repository, folder):
                 "named": "solid Geh\u00e4use\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\n"
                          "endfacet\nendsolid\n".encode(),
                 "empty": b"solid a\nendsolid a\n"}
+    contents = {**{f"{name}.stl": content for name, content in contents.items()}, "cloud.xyz": b"0 0 700\n1 0 700\n0 1 700\n",
+                **{f"image.{ending}": contents["image"] for ending in ("obj", "pcd", "ply")}}
     for name, content in contents.items():
-        with open(f"{folder}/{name}.stl", "wb") as file:
+        with open(f"{folder}/{name}", "wb") as file:
             file.write(content)
-    paths = [os.path.join(repository, "examples", "parts", "knob.stl"), *(f"{folder}/{name}.stl" for name in contents)]
-    box, events = "1QMessageBox0", [done for path in paths for done in files("actionFileOpen", "FileOpenDialog", path)]
+    box, events = "1QMessageBox0", []
+    for path in (os.path.join(repository, "examples", "parts", "knob.stl"), *(f"{folder}/{name}" for name in contents)):
+        events += files("actionFileOpen", "FileOpenDialog", path)
+        events += [event("pqSelectReaderDialog/okButton", "activate")] if path.endswith("xyz") else []
+        events += [APPLY, event(f"{PANEL}/Delete", "activate")] if path.endswith(("pcd", "ply")) else []
+    events += [*item(BROWSER, 2)]
     events += [event("PoseEstimationToolbar/EstimatePoses", "activate"),
                expect(box, "text", "empty.stl has no triangles: delete it, or select another part."),
                event(f"{box}/qt_msgbox_buttonbox/1QPushButton0", "activate")]
     said, _ = start(paraview, folder, events, "--exit").communicate(timeout=LONGEST)
-    for words in ("image.stl was not opened: it is no STL but a PNG image", "random.stl was not opened: it is no STL, or damaged",
+    for words in ("cloud.xyz was not opened: it is no PLOT3D grid", "image.obj was not opened: it is no OBJ but a PNG image",
+                  "image.pcd' has a header line without", "image.ply' does not start with ply", "image.stl was not opened: it is no STL but a PNG image", "random.stl was not opened: it is no STL, or damaged",
                   "nothing.stl was not opened: it is empty", "Success =  true"):
         check(words in said, f"not said: {words}: {said[-3000:]}")
     check("named.stl" not in said, f"a text with letters beyond ASCII is refused: {said[-3000:]}")

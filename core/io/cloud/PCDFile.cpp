@@ -68,6 +68,13 @@ std::optional<Eigen::Isometry3d> poseOf(const std::vector<std::string>& values)
   throw Error("The PCD file '" + path + "' " + what + ".");
 }
 
+/// Bytes of an image would make the message unreadable.
+std::string quotedKey(const std::string& key)
+{
+  const bool isText = std::all_of(key.begin(), key.end(), [](unsigned char c) { return c > 0x20 && c < 0x7f; });
+  return isText ? " '" + key.substr(0, 40) + "'" : "";
+}
+
 template <typename Number>
 Number parseOrFail(const std::string& path, const std::string& key, const std::string& text)
 {
@@ -110,7 +117,7 @@ Header parseHeader(const std::string& path, const std::string& bytes)
     }
     if (values.empty())
     {
-      failPCD(path, "has a header line '" + key.substr(0, 40) + "' without a value: it is not a PCD file");
+      failPCD(path, "has a header line" + quotedKey(key) + " without a value: it is not a PCD file");
     }
     if (key == "FIELDS" || key == "COLUMNS")
     {
@@ -159,7 +166,7 @@ Header parseHeader(const std::string& path, const std::string& bytes)
     }
     else
     {
-      failPCD(path, "has an unknown header line '" + key.substr(0, 40) + "': it is not a PCD file");
+      failPCD(path, "has an unknown header line" + quotedKey(key) + ": it is not a PCD file");
     }
   }
 
