@@ -188,8 +188,13 @@ void nameTypes(vtkSMProxy* representation)
   }
   vtkSMSourceProxy* estimation = estimationOf(representation);
   const Texts legend = legendOf(representation, estimation);
-  if (legend.empty() || legend == legendIn(colors))
+  if (legend.empty())
   {
+    return;
+  }
+  if (legend == legendIn(colors)) // also in a state of an earlier version, which has no such annotation
+  {
+    colors->SetAnnotation(Named, joined(legend).c_str());
     return;
   }
   if (isOfOthers(colors, representation, estimation))
