@@ -4,7 +4,7 @@
 find_path(OpenCASCADE_INCLUDE_DIR STEPControl_Reader.hxx PATH_SUFFIXES opencascade)
 set(required OpenCASCADE_INCLUDE_DIR)
 set(libraries)
-foreach(toolkit IN ITEMS TKSTEP TKSTEPBase TKIGES TKXSBase TKMesh TKTopAlgo TKBRep TKG3d TKMath TKernel)
+foreach(toolkit IN ITEMS TKSTEP TKSTEPBase TKIGES TKXSBase TKMesh TKShHealing TKTopAlgo TKBRep TKG3d TKMath TKernel)
   string(REGEX REPLACE "^TK(STEP|IGES).*" "TKDE\\1" later "${toolkit}")
   find_library(OpenCASCADE_${toolkit}_LIBRARY NAMES ${toolkit} ${later})
   mark_as_advanced(OpenCASCADE_${toolkit}_LIBRARY)

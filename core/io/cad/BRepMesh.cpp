@@ -10,6 +10,7 @@
 #include <BRepBuilderAPI_Sewing.hxx>
 #include <BRepExtrema_DistShapeShape.hxx>
 #include <BRepMesh_IncrementalMesh.hxx>
+#include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
@@ -22,6 +23,7 @@
 #include <Poly_PolygonOnTriangulation.hxx>
 #include <Poly_Triangulation.hxx>
 #include <STEPControl_Reader.hxx>
+#include <ShapeFix_Shape.hxx>
 #include <Standard_Failure.hxx>
 #include <StepShape_TopologicalRepresentationItem.hxx>
 #include <TopExp.hxx>
@@ -467,6 +469,30 @@ bool isSeen(const TopoDS_Face& face, double deflection)
   return isSeen;
 }
 
+struct Triangulation
+{
+  TriangleMesh mesh;
+  int faces = 0, missing = 0; ///< that would be seen
+};
+
+Triangulation triangulated(const TopoDS_Shape& shape, double diagonal)
+{
+  IMeshTools_Parameters fineness;
+  fineness.Deflection = fineness.DeflectionInterior = Deflection * diagonal;
+  fineness.Angle = fineness.AngleInterior = Angle;
+  BRepMesh_IncrementalMesh(shape, fineness);
+  FaceJoining joining;
+  Triangulation result;
+  for (TopExp_Explorer face(shape, TopAbs_FACE); face.More(); face.Next(), ++result.faces)
+  {
+    const bool isMissing = !joining.add(TopoDS::Face(face.Current()));
+    result.missing += isMissing && isSeen(TopoDS::Face(face.Current()), fineness.Deflection);
+  }
+  result.mesh = joining.mesh();
+  return result;
+}
+
+/// The boundaries of some faces, as where fillets of several edges meet, are triangulated once they are healed.
 TriangleMesh meshOf(const std::string& path, const TopoDS_Shape& shape)
 {
   const double diagonal = diagonalOf(shape);
@@ -474,23 +500,20 @@ TriangleMesh meshOf(const std::string& path, const TopoDS_Shape& shape)
   {
     return {};
   }
-  IMeshTools_Parameters fineness;
-  fineness.Deflection = fineness.DeflectionInterior = Deflection * diagonal;
-  fineness.Angle = fineness.AngleInterior = Angle;
-  BRepMesh_IncrementalMesh(shape, fineness);
-  FaceJoining joining;
-  int faces = 0, missing = 0;
-  for (TopExp_Explorer face(shape, TopAbs_FACE); face.More(); face.Next(), ++faces)
+  Triangulation result = triangulated(shape, diagonal);
+  if (result.missing > 0)
   {
-    const bool isMissing = !joining.add(TopoDS::Face(face.Current()));
-    missing += isMissing && isSeen(TopoDS::Face(face.Current()), fineness.Deflection);
+    ShapeFix_Shape healing(shape);
+    healing.Perform();
+    BRepTools::Clean(healing.Shape()); // faces that failed are not tried again otherwise
+    result = triangulated(healing.Shape(), diagonal);
   }
-  if (missing > 0)
+  if (result.missing > 0)
   {
-    failBRep(path, "has " + std::to_string(missing) + " of its " + std::to_string(faces) +
+    failBRep(path, "has " + std::to_string(result.missing) + " of its " + std::to_string(result.faces) +
                      " faces damaged: they cannot be triangulated");
   }
-  return joining.mesh();
+  return result.mesh;
 }
 
 std::vector<TopoDS_Shape> solidsIn(const TopoDS_Shape& shape)

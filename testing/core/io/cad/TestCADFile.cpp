@@ -7,11 +7,12 @@
 #include "base/Bounds.h"
 #include "io/cad/ChildProcess.h"
 #include "mesh/FeatureEdges.h"
-#include "mesh/preparation/MeshPreparation.h"
 
+#include <BRepAlgoAPI_Fuse.hxx>
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakeWire.hxx>
+#include <BRepFilletAPI_MakeFillet.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCone.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
@@ -24,6 +25,7 @@
 #include <STEPControl_Writer.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
 #include <TopoDS_Compound.hxx>
 #include <TopoDS_Shell.hxx>
 #include <gp_Pln.hxx>
@@ -133,6 +135,31 @@ TEST(CADFile, curvedFacesAreClosedAndLookOutwards)
     parts::expectTwoFacesAtEachEdge(mesh, 0.0f);
     EXPECT_NEAR(parts::volume(mesh) / expected, 1.0, 0.01);
   }
+}
+
+TEST(CADFile, facesWhereFilletsMeetAreTriangulated)
+{
+  // Of this shape two faces, where fillets meet in the inner corner, are triangulated once they are healed.
+  const files::Folder folder;
+  const std::string path = folder.path("fillets.step");
+  const auto write = [](const char* to)
+  {
+    const TopoDS_Shape angle =
+      BRepAlgoAPI_Fuse(BRepPrimAPI_MakeBox(60, 40, 12).Shape(), BRepPrimAPI_MakeBox(12, 40, 38).Shape()).Shape();
+    BRepFilletAPI_MakeFillet fillets(angle);
+    TopTools_IndexedMapOfShape edges; // counted from 1
+    TopExp::MapShapes(angle, TopAbs_EDGE, edges);
+    for (int i = 1; i <= edges.Extent(); ++i)
+    {
+      fillets.Add(0.7, TopoDS::Edge(edges(i)));
+    }
+    STEPControl_Writer writer;
+    writer.Transfer(fillets.Shape(), STEPControl_AsIs);
+    writer.Write(to);
+  };
+  const meam::TriangleMesh mesh = meam::readCAD(written(path, write)).mesh;
+  expectSizes(mesh, 60, 40, 38);
+  EXPECT_NEAR(parts::volume(mesh) / (60.0 * 40 * 12 + 12.0 * 40 * 26), 1.0, 0.01);
 }
 
 TEST(CADFile, sharpEdgesOfTheMeshAreThoseOfTheSurfaces)
