@@ -76,6 +76,21 @@ Eigen::Isometry3d nearestEqual(
   return best;
 }
 
+double turnBetween(const Eigen::Isometry3d& of, const Eigen::Isometry3d& T, const Symmetries& same)
+{
+  const auto between = [&](const Eigen::Isometry3d& one)
+  {
+    const Eigen::Matrix3d turn = nearestEqual(one, T, same).linear().transpose() * T.linear();
+    return Eigen::AngleAxisd(turn).angle() * 180.0 / M_PI;
+  };
+  double least = between(of);
+  for (const NearSymmetry& symmetry : same.near)
+  {
+    least = std::min(least, between(of * symmetry.T));
+  }
+  return least;
+}
+
 std::vector<ContinuousSymmetry> nearlyRoundAxes(const Symmetries& symmetries)
 {
   const double halfTurn = HalfTurn * M_PI / 180.0;

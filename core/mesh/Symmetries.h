@@ -40,6 +40,9 @@ Eigen::Isometry3d turnAbout(const Eigen::Vector3d& axis, double angle, const Eig
 Eigen::Isometry3d nearestEqual(
   const Eigen::Isometry3d& T_scene_model, const Eigen::Isometry3d& reference, const Symmetries& symmetries);
 
+/// Degrees between two rotations, up to these symmetries, near ones among them.
+double turnBetween(const Eigen::Isometry3d& of, const Eigen::Isometry3d& T, const Symmetries& same);
+
 /// The axes about which a part is nearly round: those of its near-symmetries other than half turns.
 std::vector<ContinuousSymmetry> nearlyRoundAxes(const Symmetries& symmetries);
 

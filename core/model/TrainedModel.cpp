@@ -6,6 +6,7 @@
 #include "base/sequences/Sequences.h"
 #include "model/body/BodyInterior.h"
 #include "model/MirrorImage.h"
+#include "model/SideSymmetries.h"
 #include "model/body/SurroundingPatches.h"
 
 #include <algorithm>
@@ -19,7 +20,6 @@ namespace
 // Shares of the diameter.
 constexpr double VotingLeaf = 0.04; // of the edge points in a cube of this side one makes pairs, in model and scene
 constexpr double VerificationLeaf = 0.03; // of the surface points in such a cube one verifies poses
-constexpr double FieldCell = 0.0075;      // of the distance fields
 constexpr float SheetWidth = 3.0f;        // thicknesses: what is narrower is a rod
 constexpr double FlatThickness = 0.075;   // PoseEvidence tells such parts from what they lie on by their thickness
 
@@ -103,6 +103,7 @@ void TrainedModel::deriveFields()
   this->edgeDistance = ofEdges.get();
   this->interior = std::make_shared<const BodyInterior>(this->surface, this->diameter, reach);
   this->mirrorImage = std::make_shared<const MirrorImage>();
+  this->sides = std::make_shared<const SideSymmetries>();
   this->surroundings = std::make_shared<const SurroundingPatches>();
 }
 }

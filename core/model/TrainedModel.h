@@ -14,6 +14,7 @@ namespace meam
 {
 class BodyInterior;
 class MirrorImage;
+class SideSymmetries;
 class SurroundingPatches;
 
 /// How the edge appearance models come into one table.
@@ -36,7 +37,8 @@ struct SurfacePairSettings
 // point for the surface, a little over the spacing of these points.
 constexpr double EdgePointSpacing = 0.03;
 constexpr double SurfacePointSpacing = 0.018;
-constexpr double FieldReach = 0.03; // of the distance fields, and of what is deep: tolerances are less
+constexpr double FieldReach = 0.03;  // of the distance fields, and of what is deep: tolerances are less
+constexpr double FieldCell = 0.0075; // of the distance fields: they are half a cell off
 
 struct MEAMHashingSettings
 {
@@ -100,6 +102,7 @@ struct TrainedModel
   std::shared_ptr<const PredictedVisibility> visibility;  ///< what should be seen of the part from where
   std::shared_ptr<const BodyInterior> interior;           ///< what lies deep in the part
   std::shared_ptr<const MirrorImage> mirrorImage;         ///< the part as a mirror shows it
+  std::shared_ptr<const SideSymmetries> sides;            ///< what looks the same of it from some direction
   std::shared_ptr<const SurroundingPatches> surroundings; ///< patches of its surface and beside it
 
   /// Makes what voting and verification look up and what files do not hold: to be called when all else is there.

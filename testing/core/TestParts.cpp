@@ -236,6 +236,11 @@ meam::TriangleMesh blockOnPlate(bool mirrored)
     box({ 0.0f, 0.0f, 0.0f }, { 60.0f, 40.0f, 6.0f }), box({ left, 0.0f, 3.0f }, { left + 20.0f, 12.0f, 18.0f }));
 }
 
+meam::TriangleMesh tower()
+{
+  return joined(box({ 0.0f, 0.0f, 0.0f }, { 60.0f, 40.0f, 6.0f }), box({ 40.0f, 0.0f, 3.0f }, { 60.0f, 16.0f, 40.0f }));
+}
+
 meam::TriangleMesh gear()
 {
   constexpr int Corners = 40;

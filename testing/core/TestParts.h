@@ -67,6 +67,8 @@ meam::TriangleMesh windowPlate();
 /// A plate of 60 x 40 x 6 mm with a block of 20 x 12 x 12 mm on one corner, or on its neighbour, which makes it the
 /// mirror image.
 meam::TriangleMesh blockOnPlate(bool mirrored);
+/// A plate of 60 x 40 x 6 mm with a high block on one of its corners: its back is plain.
+meam::TriangleMesh tower();
 
 /// A gear of ten teeth, one of which is missing: turns by 36 degrees are near-symmetries.
 meam::TriangleMesh gear();

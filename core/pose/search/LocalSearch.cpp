@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose/search/LocalSearch.h"
 
+#include "model/SideSymmetries.h"
 #include "pose/PoseTolerances.h"
 #include "pose/refinement/FinalAlignment.h"
 
@@ -25,6 +26,7 @@ constexpr double TurnDistance = 0.04; // of the diameter: correspondences of ano
 constexpr double SureAdvantage = 13.0; // points that make a rotation e times likelier than another in simulated bins
 constexpr double Hopeless = -6.0 * SureAdvantage; // a rotation so unlikely is one in four hundred
 constexpr double WorthAsking = 0.02; // probability of a pose before: less, and only its near-symmetries are compared
+constexpr float FromThatSide = 0.5f; // cosine between the line of sight and the one from where a side looks the same
 constexpr int Rounds = 3;            // of rotations that the scene speaks for more
 constexpr double LeastShare = 0.01;  // of a rotation that is told of
 
@@ -124,10 +126,10 @@ LocalSearch::LocalSearch(const Scene& scene, const TrainedModel& model, const Po
     this->NearSymmetries = this->Rotations.size();
     const std::vector<Eigen::Isometry3d> steps = stepsAboutAxes(model);
     this->Rotations.insert(this->Rotations.end(), steps.begin(), steps.end());
-    if (settings.depthFit && DepthFit::tells(scene, model))
-    {
-      this->Depth.emplace(scene, model);
-    }
+  }
+  if (settings.nearSymmetries && settings.depthFit && DepthFit::tells(scene, model))
+  {
+    this->Depth.emplace(scene, model);
   }
   if (model.surface.empty())
   {
@@ -172,7 +174,7 @@ LocalSearch::Result LocalSearch::best(Pose pose) const
   {
     this->turnAboutAxis(pose, current);
   }
-  if (!this->Rotations.empty())
+  if (this->Settings.nearSymmetries)
   {
     this->decide(pose, current);
   }
@@ -226,7 +228,7 @@ void LocalSearch::restart(Pose& pose, Contender& current) const
       current = this->Comparison.contender(pose.T_scene_model);
     }
   };
-  const double hopeless = -current.explained;
+  const double hopeless = -current.explained.byDistance;
   for (const Eigen::Isometry3d& turn : this->HalfTurns)
   {
     const Eigen::Isometry3d turned = start.T_scene_model * turn;
@@ -259,18 +261,40 @@ void LocalSearch::turnAboutAxis(Pose& pose, Contender& current) const
   }
 }
 
+void LocalSearch::addTurnsOfSide(const Eigen::Isometry3d& T_scene_model, std::vector<Eigen::Isometry3d>& turns) const
+{
+  const Eigen::Vector3f towards = this->Model.visibility->towards(T_scene_model, this->InScene.sensor);
+  for (const SideSymmetry& side : this->Model.sides->of(this->Model))
+  {
+    if (side.towards.dot(towards) > FromThatSide)
+    {
+      turns.insert(turns.end(), side.turns.begin(), side.turns.end());
+    }
+  }
+}
+
 void LocalSearch::decide(Pose& pose, Contender current) const
 {
   const bool isLikely = claimOf(pose, false) >= WorthAsking;
   const std::size_t count = isLikely ? this->Rotations.size() : this->NearSymmetries;
   for (int round = 0; round < Rounds; ++round)
   {
+    std::vector<Eigen::Isometry3d> turns(
+      this->Rotations.begin(), this->Rotations.begin() + static_cast<std::ptrdiff_t>(count));
+    if (isLikely)
+    {
+      this->addTurnsOfSide(pose.T_scene_model, turns);
+    }
+    if (turns.empty())
+    {
+      return;
+    }
     const double logOdds = isLikely ? this->Collector.logOdds(pose.T_scene_model, this->Rates) : 0.0;
     std::vector<RotationAlternative> rotations{ { pose.T_scene_model, 0.0 } }; // their advantages, and then shares
-    for (std::size_t k = 0; k < count; ++k)
+    for (const Eigen::Isometry3d& turn : turns)
     {
-      const Eigen::Isometry3d rotated = pose.T_scene_model * this->Rotations[k];
-      double advantage = this->Comparison.advantage(rotated, current, Hopeless);
+      const Eigen::Isometry3d rotated = pose.T_scene_model * turn;
+      double advantage = this->Comparison.advantageOfTurn(rotated, current, Hopeless);
       if (isLikely && advantage > Hopeless)
       {
         advantage += SureAdvantage * (this->Collector.logOdds(rotated, this->Rates) - logOdds);

@@ -20,7 +20,8 @@ struct LocalSearchSettings
   bool smallTurns = true; ///< refines from 10 or 6 degrees to both sides, for a flat part's refinement may end beside
                           ///< the truth
   bool aboutAxis = true;  ///< turns a nearly round part about its axis to where the scene's edges fit its own
-  bool nearSymmetries = true; ///< decides between near-symmetries, of a nearly round part every step about its axis,
+  bool nearSymmetries = true; ///< decides between near-symmetries, those of the side that is seen among them, of a
+                              ///< nearly round part every step about its axis,
   bool depthFit = true;       ///< by the measured depth point by point, too
   bool aligns = true;         ///< robustly, at the end
   bool maximizes = true;      ///< moves an aligned pose that the scan contradicts
@@ -57,6 +58,8 @@ private:
   void turnAboutAxis(Pose& pose, Contender& current) const;
   /// Takes the likeliest rotation, by the comparison and, of a pose that is likely, by the evidence and the depth.
   void decide(Pose& pose, Contender current) const;
+  /// Of a part that looks more symmetric than it is from where the sensor stands, in the part's frame.
+  void addTurnsOfSide(const Eigen::Isometry3d& T_scene_model, std::vector<Eigen::Isometry3d>& turns) const;
   /// Adds what the measured depth says for each of the rotations against the first, where their share, which is the
   /// advantage here, is not hopeless.
   void addDepth(std::vector<RotationAlternative>& rotations) const;
@@ -74,6 +77,6 @@ private:
   std::vector<Eigen::Isometry3d> Rotations; ///< that hardly move the surface: near-symmetries first, then steps
   std::size_t NearSymmetries = 0;           ///< of these
   PatternSearch Pattern;
-  std::optional<DepthFit> Depth; ///< where there are rotations, and depth tells of them
+  std::optional<DepthFit> Depth; ///< where it tells of rotations
 };
 }

@@ -7,20 +7,6 @@
 
 namespace meam
 {
-namespace
-{
-/// Degrees, up to what is the same.
-double turnBetween(const Eigen::Isometry3d& of, const Eigen::Isometry3d& T, const Symmetries& same)
-{
-  double least = rotationError(nearestEqual(of, T, same), T);
-  for (const NearSymmetry& symmetry : same.near)
-  {
-    least = std::min(least, rotationError(nearestEqual(of * symmetry.T, T, same), T));
-  }
-  return least;
-}
-}
-
 std::vector<int> firstOfClusters(const Poses& poses, const Symmetries& same, const TrainedModel& model, double distance,
   int posesPerInstance, const Progress& progress)
 {

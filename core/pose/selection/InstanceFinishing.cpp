@@ -20,6 +20,7 @@ constexpr double Hopeless = -6.0;      // log odds where it lies: with less a po
 constexpr int MostFruitless = 64;      // finished in a row of which none became sure: further ones hardly will,
 constexpr int FruitlessOfAsked = 3;    // or so many for each pose that is asked for, but no fewer than
 constexpr int LeastFruitless = 16;     // these: the order by scores is not that of finished poses
+constexpr double SureRotation = 0.5;   // share of its rotation: with less a pose is none of those that are wanted
 constexpr double ClearlyMore = 3.0;    // log odds of a sure pose over those of one that it excludes
 
 /// A scored pose that is not finished.
@@ -95,6 +96,7 @@ FinishedInstances InstanceFinishing::finished(
     finished.push_back(asItIs(scored[k]));
   }
   std::vector<Sure> sure;
+  int enough = 0; // of these, those whose rotation is sure
   const int asked = this->Settings.maximumPoses;
   const int wanted = this->Settings.sureCopies > 0 ? this->Settings.sureCopies : asked > 0 ? asked + SpareCopies : 0;
   const int most = asked > 0 ? std::clamp(FruitlessOfAsked * asked, LeastFruitless, MostFruitless) : MostFruitless;
@@ -103,7 +105,7 @@ FinishedInstances InstanceFinishing::finished(
   const int count = static_cast<int>(selected.size());
   for (int next = 0; next < count;)
   {
-    const int missing = wanted - static_cast<int>(sure.size());
+    const int missing = wanted - enough;
     if (wanted > 0 && missing <= 0)
     {
       for (; next < count; ++next)
@@ -151,6 +153,7 @@ FinishedInstances InstanceFinishing::finished(
       {
         const Eigen::Isometry3d& T = instance.pose.T_scene_model;
         sure.push_back({ T, instance.logOdds, this->Claims.of(T) });
+        enough += instance.pose.certainty >= SureRotation ? 1 : 0;
       }
       fruitless = isSure ? 0 : fruitless + 1;
     }

@@ -25,14 +25,15 @@ PoseComparison::PoseComparison(const Scene& scene, const TrainedModel& model, co
 {
 }
 
-double PoseComparison::explained(const Eigen::Isometry3d& T_scene_model) const
+PoseComparison::Fit PoseComparison::explained(const Eigen::Isometry3d& T_scene_model) const
 {
   const DistanceField& surface = this->Model.surfaceDistance;
   const float far = this->Unexplained;
+  const auto near = static_cast<float>(0.5 * FieldCell * this->Model.diameter);
   const Eigen::Isometry3f T = T_scene_model.cast<float>();
   const Eigen::Isometry3f toModel = T_scene_model.inverse().cast<float>();
   const PointGrid& measured = this->InScene.surface;
-  double explained = 0.0;
+  Fit explained;
   measured.forEachBlock(T * surface.middle(), surface.radius() + far,
     [&](int begin, int count)
     {
@@ -40,7 +41,8 @@ double PoseComparison::explained(const Eigen::Isometry3d& T_scene_model) const
       surface.at(toModel, measured.sorted(), begin, count, distances);
       for (int k = 0; k < count; ++k)
       {
-        explained += std::max(0.0f, 1.0f - distances[k] / far);
+        explained.byDistance += std::max(0.0f, 1.0f - distances[k] / far);
+        explained.lying += std::clamp((far - distances[k]) / (far - near), 0.0f, 1.0f);
       }
     });
   return explained;
@@ -116,13 +118,26 @@ double PoseComparison::contradicted(const Contender& one, const Contender& other
 
 double PoseComparison::advantage(const Contender& one, const Contender& other) const
 {
-  return this->advantageElsewhere(one, other) + this->advantageByEdges(one, other) - this->contradicted(one, other);
+  return this->advantageElsewhere(one, other, &Fit::byDistance) + this->advantageByEdges(one, other) -
+         this->contradicted(one, other);
 }
 
 double PoseComparison::advantage(const Eigen::Isometry3d& T_scene_model, const Contender& other, double enough) const
 {
+  return this->advantageOfOne(T_scene_model, other, enough, &Fit::byDistance);
+}
+
+double PoseComparison::advantageOfTurn(
+  const Eigen::Isometry3d& T_scene_model, const Contender& other, double enough) const
+{
+  return this->advantageOfOne(T_scene_model, other, enough, &Fit::lying);
+}
+
+double PoseComparison::advantageOfOne(
+  const Eigen::Isometry3d& T_scene_model, const Contender& other, double enough, double Fit::*kind) const
+{
   Contender one{ T_scene_model, this->explained(T_scene_model), nullptr, {} };
-  const double elsewhere = this->advantageElsewhere(one, other);
+  const double elsewhere = this->advantageElsewhere(one, other, kind);
   const double most = elsewhere + this->advantageByEdges(one, other);
   if (most < enough)
   {
@@ -132,9 +147,9 @@ double PoseComparison::advantage(const Eigen::Isometry3d& T_scene_model, const C
   return elsewhere + this->advantageByEdges(one, other) - this->contradicted(one, other);
 }
 
-double PoseComparison::advantageElsewhere(const Contender& one, const Contender& other) const
+double PoseComparison::advantageElsewhere(const Contender& one, const Contender& other, double Fit::*kind) const
 {
-  return one.explained - other.explained + this->contradicted(other, one);
+  return one.explained.*kind - other.explained.*kind + this->contradicted(other, one);
 }
 
 double PoseComparison::advantageByEdges(const Contender& one, const Contender& other) const

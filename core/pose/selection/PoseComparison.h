@@ -29,12 +29,18 @@ public:
     SoAPoints passed; ///< points of its surface that the sensor saw past
     SoAPoints edges;  ///< edge points on a surface that it saw
   };
-  /// A pose, how many points of the measured surface it explains (one for each that lies on the part, less for those
-  /// beside it), and what it predicts.
+  /// How many points of the measured surface a pose explains.
+  struct Fit
+  {
+    double byDistance = 0.0; ///< one for each that lies on the part, less for those beside it: of two poses the better
+                             ///< fit has more
+    double lying = 0.0;      ///< the same, but one for each within half a cell of the distance field
+  };
+  /// A pose, what it explains and what it predicts.
   struct Contender
   {
     Eigen::Isometry3d T_scene_model;
-    double explained;
+    Fit explained;
     std::shared_ptr<const PredictedVisibility::Visible> visible; ///< none: not asked yet
     Prediction predicted;
   };
@@ -46,13 +52,18 @@ public:
   /// The same of a pose that is asked about once: exact from `enough` on. Below it is found at less cost, and what
   /// comes back is below `enough`, but may be more than it is.
   double advantage(const Eigen::Isometry3d& T_scene_model, const Contender& other, double enough) const;
+  /// The same of a turn after which the part's surface lies where it was: other faces lie there, and how each lies in
+  /// the cells of the distance field says nothing.
+  double advantageOfTurn(const Eigen::Isometry3d& T_scene_model, const Contender& other, double enough) const;
 
 private:
-  double explained(const Eigen::Isometry3d& T_scene_model) const;
+  Fit explained(const Eigen::Isometry3d& T_scene_model) const;
+  double advantageOfOne(
+    const Eigen::Isometry3d& T_scene_model, const Contender& other, double enough, double Fit::*kind) const;
   /// Sets `visible` and `predicted`.
   void predict(Contender& one) const;
   /// By the measured surface, and by what contradicts the other; `one` need not know what it predicts.
-  double advantageElsewhere(const Contender& one, const Contender& other) const;
+  double advantageElsewhere(const Contender& one, const Contender& other, double Fit::*kind) const;
   /// By scene edges that one of them alone explains. Where `one` does not know what it predicts all of its edges count
   /// as visible: it is no less.
   double advantageByEdges(const Contender& one, const Contender& other) const;

@@ -111,6 +111,26 @@ TEST(LocalSearch, WhereTheFlatIsNotSeenNoTurnIsSure)
   EXPECT_GT(found.certainty, 0.01);
 }
 
+TEST(LocalSearch, OfAPlainBackNoRotationIsSure)
+{
+  const meam::TrainedModel& model = scenes::trained<parts::tower>();
+  const Eigen::Isometry3d flipped(Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitX()));
+  for (const bool isBackUp : { true, false })
+  {
+    const Eigen::Isometry3d truth = isBackUp ? flipped : Eigen::Isometry3d::Identity();
+    const meam::Scene scene = scenes::alone(parts::tower(), model, truth);
+    const meam::PoseComparison comparison(scene, model);
+    const meam::EvidenceCollector collector(scene, model);
+    meam::Pose pose = scenes::displaced(scene.T_local_scene() * truth);
+    pose.probability = 0.9;
+    const meam::LocalSearchSettings settings{ false, false, false, true, false, false, false, {} };
+    pose = meam::LocalSearch(scene, model, comparison, collector, {}, settings).best(pose).pose;
+    EXPECT_EQ(pose.alternatives.size(), isBackUp ? 1u : 0u);
+    EXPECT_GE(pose.certainty, isBackUp ? 0.5 : 0.98);
+    EXPECT_LT(pose.certainty, isBackUp ? 0.75 : 1.1);
+  }
+}
+
 TEST(LocalSearch, OfUnlikelyPosesNearSymmetriesAloneAreAskedAbout)
 {
   EXPECT_GT(decided(disc(20.0f), 40.0, 0.001).certainty, decided(disc(20.0f), 40.0).certainty);
