@@ -27,7 +27,7 @@ constexpr double FirstShift = 0.01;     // of the diameter, and a fifth of a ste
 constexpr int Halvings = 4;             // and then by halves
 constexpr double SameTurn = 15.0;       // degrees: of the part's symmetries and near-symmetries
 
-constexpr double Step = 2.0 * M_PI / Steps;
+constexpr double Step = 2.0 * M_PI / Steps; // radians
 
 /// Those along the coordinates' axes, and the normals of what is flat and large.
 Points directionsOf(const PointCloud& surface)
