@@ -50,7 +50,9 @@ fails(connect(vtkMEAMModelCalibration(), data), "Judged Poses")
 # The next scan is told by it, and a file of the model holds it.
 def found_by(model):
     poses = run(connect(vtkMEAMPoseEstimation(), model, scan))
-    return [vtk_to_numpy(poses.GetPointData().GetArray(name)) for name in ("PlaceProbability", "Certainty", "Transform")]
+    arrays = [vtk_to_numpy(poses.GetPointData().GetArray(name)) for name in ("PlaceProbability", "Certainty", "Transform")]
+    order = numpy.lexsort(arrays[2].T)  # ranks follow what is said
+    return [array[order] for array in arrays]
 
 
 (places, certainties, before), (new_places, new_certainties, after) = found_by(data), found_by(calibrated)
