@@ -145,8 +145,9 @@ void Legends::place(vtkSMProxy* legend)
   };
   const auto* const place = std::find_if(std::begin(Places), std::end(Places), isFree);
   const int location = locationOf(legend);
+  const double now = placeOf(legend); // negative: elsewhere, where it stays
   const bool isInOtherCorner = location == LowerLeft || location == UpperLeft || location == UpperRight; // by ParaView
-  if (place != std::end(Places) && (isInOtherCorner || !isFree(placeOf(legend))))
+  if (place != std::end(Places) && (isInOtherCorner || (now >= 0.0 && !isFree(now))))
   {
     const double position[2] = { 0.92, *place };
     vtkSMPropertyHelper(legend, "WindowLocation").Set(AnyLocation);

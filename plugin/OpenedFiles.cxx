@@ -43,7 +43,7 @@ QString otherThanOBJ(const QByteArray& start)
     return QString("it is no OBJ but %1").arg(kind);
   }
   const QByteArray first = start.trimmed().toLower();
-  const bool isSTL = first.startsWith("solid ") || first == "solid" || first.startsWith("solid\n");
+  const bool isSTL = first.startsWith("solid") && (first.size() == 5 || QByteArray(" \t\r\n").contains(first[5]));
   return isSTL ? "it is no OBJ but an STL file" : start.contains('\0') ? "it is no OBJ: its bytes are no text" : QString();
 }
 

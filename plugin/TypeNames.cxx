@@ -53,6 +53,8 @@ vtkSMSourceProxy* estimationOf(vtkSMProxy* representation)
 
 std::string nameOf(int type) { return "part " + std::to_string(type + 1); }
 
+constexpr double MostTypes = 1000; // more are numbers of something else
+
 /// Of the types of the estimation or, when there is none, of those that the data have.
 Texts legendOf(vtkSMProxy* representation, vtkSMSourceProxy* estimation)
 {
@@ -66,7 +68,8 @@ Texts legendOf(vtkSMProxy* representation, vtkSMSourceProxy* estimation)
   }
   vtkPVArrayInformation* types =
     estimation ? nullptr : ShownData(representation).data()->GetArrayInformation("PartId", vtkDataObject::POINT);
-  for (int type = 0; types && type <= types->GetComponentRange(0)[1]; ++type)
+  const double last = types ? types->GetComponentRange(0)[1] : -1.0;
+  for (int type = 0; last < MostTypes && type <= last; ++type)
   {
     legend.insert(legend.end(), { std::to_string(type), nameOf(type) });
   }

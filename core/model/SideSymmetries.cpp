@@ -16,16 +16,17 @@ constexpr float SameSide = 0.985f;      // cosine: normals and directions that d
 constexpr double FlatShare = 0.04;      // of the samples, on faces with one normal: the part is looked at along it
 constexpr double LeastCosine = 0.25;    // of surface towards the sensor: flatter is measured badly
 constexpr std::size_t MostPoints = 600; // of a side that are turned
-constexpr double Near = 0.01;           // of the diameter: so near to the surface what is turned lies on it
-constexpr double Alike = 0.9;           // share of a side, on the surface once it is turned: whether it is the same is
-                                        // for what is measured to tell
-constexpr double Round = 0.98;          // the same at every angle: it looks the same however it is turned
+constexpr double Near = 0.01;           // of the diameter: a turned point this near to the surface lies on it
+constexpr double Alike = 0.9;           // share of a side that lies on the surface after a turn: from here on the scan
+                                        // has to tell the two apart
+constexpr double Round = 0.98;          // the same after every turn: it looks the same however it is turned
 constexpr int Steps = 72;               // of a full turn,
 constexpr int FirstStep = 3;            // from which on, to both sides, a turn is one
 constexpr int StepOfRound = 2;          // between the turns of a round side: 10 degrees
 constexpr double FirstShift = 0.01;     // of the diameter, and a fifth of a step: what a turn is fitted by first,
 constexpr int Halvings = 4;             // and then by halves
-constexpr double SameTurn = 15.0;       // degrees: of the part's symmetries and near-symmetries
+constexpr double SameTurn = 15.0;       // degrees from one of the part's symmetries or near-symmetries,
+constexpr double SameOfSide = 5.0;      // and from another turn of the side
 
 constexpr double Step = 2.0 * M_PI / Steps; // radians
 
@@ -104,6 +105,8 @@ public:
     {
       this->Middle += 0.5 * (this->fitted(M_PI) * this->Middle - this->Middle);
     }
+    Symmetries exact = this->Model.symmetries;
+    exact.near.clear();
     std::vector<Eigen::Isometry3d> found;
     for (int step = FirstStep; step <= Steps - FirstStep; ++step)
     {
@@ -114,7 +117,10 @@ public:
       if (isRound ? step % StepOfRound == 0 : isPeak)
       {
         const Eigen::Isometry3d T = isRound ? this->turn(step * Step) : this->fitted(step * Step);
-        if (turnBetween(T, Eigen::Isometry3d::Identity(), asIfRound(this->Model.symmetries)) > SameTurn)
+        // Turns that differ by an exact symmetry are one.
+        const auto isSame = [&](const Eigen::Isometry3d& known) { return turnBetween(T, known, exact) < SameOfSide; };
+        if (turnBetween(T, Eigen::Isometry3d::Identity(), asIfRound(this->Model.symmetries)) > SameTurn &&
+            std::none_of(found.begin(), found.end(), isSame))
         {
           found.push_back(T);
         }

@@ -38,7 +38,8 @@ std::optional<std::string> vtkMEAMCloudReader::StartOf(
   const std::string name = fileName ? fileName : "";
   const std::string extension = vtksys::SystemTools::LowerCase(vtksys::SystemTools::GetFilenameLastExtension(name));
   std::ifstream file(name, std::ios::binary);
-  if (!file || std::find(extensions.begin(), extensions.end(), extension) == extensions.end())
+  if (!file || vtksys::SystemTools::FileIsDirectory(name) ||
+      std::find(extensions.begin(), extensions.end(), extension) == extensions.end())
   {
     return std::nullopt;
   }

@@ -688,7 +688,7 @@ def symmetry_conclusion(samples):
         often = "after half a turn" if step == 180 else f"every {step} degrees"
         said.append(f"{f'Nearly the same {often}' if regular else 'Nearly round'}: its rotation is told by {100 * (1 - overlap):.0f} % "
                     f"of its surface, {off}; where that is hidden it is unsure.")
-    return " ".join(said) or "No rotation looks like another."
+    return " ".join(said) or "No rotation of the whole part looks like another; where a plain side shows alone, one may."
 
 
 def print_poses(poses):

@@ -11,6 +11,12 @@ meam::TriangleMesh barOnDisc()
   return parts::joined(parts::regularPrism(90, 20.0, 6.0f), parts::box({ 2.0f, -12.0f, 3.0f }, { 8.0f, 12.0f, 26.0f }));
 }
 
+meam::TriangleMesh wallOnPlate()
+{
+  return parts::joined(parts::box({ -20.0f, -20.0f, 0.0f }, { 20.0f, 20.0f, 6.0f }),
+    parts::box({ -20.0f, -4.0f, 3.0f }, { 20.0f, 4.0f, 40.0f }));
+}
+
 meam::TriangleMesh hexagon() { return parts::regularPrism(6, 20.0, 8.0f); }
 
 /// The turns of the side that shows from there.
@@ -51,6 +57,14 @@ TEST(SideSymmetries, TheBackOfADiscLooksTheSameHoweverItIsTurned)
   {
     EXPECT_LT((turn * Eigen::Vector3d::Zero()).norm(), 0.5) << "about its middle, mm";
   }
+}
+
+TEST(SideSymmetries, TurnsThatAnExactSymmetryMakesEqualAreOne)
+{
+  // A square plate with a wall across its middle: the same after half a turn, and from below after a quarter.
+  const meam::TrainedModel& model = scenes::trained<wallOnPlate>();
+  ASSERT_EQ(model.symmetries.discrete.size(), 1u);
+  EXPECT_EQ(turnsFrom(model, -Up).size(), 1u);
 }
 
 TEST(SideSymmetries, WhatIsASymmetryOfThePartIsNoneOfASideAlone)
