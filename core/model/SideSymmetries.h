@@ -10,13 +10,12 @@ namespace meam
 {
 struct TrainedModel;
 
-/// What shows of a part from a direction may be more symmetric than the part: of a block with a step the flat back. So
-/// turned it looks the same from there, though the symmetries of the part, which ask for most of its surface, say
-/// nothing of it.
+/// From some directions a part looks more symmetric than it is, as the flat back of a block with a step. After these
+/// turns it looks the same from there.
 struct SideSymmetry
 {
   Eigen::Vector3f towards;              ///< unit, from the part to the sensor, in the part's frame
-  std::vector<Eigen::Isometry3d> turns; ///< about that direction, mm; none that is a near-symmetry of the part
+  std::vector<Eigen::Isometry3d> turns; ///< about that direction, mm; none within 15 degrees of a near-symmetry
 };
 
 /// The symmetries of the sides of a part, found when they are first asked for. Calls may run in parallel.

@@ -38,7 +38,7 @@ struct SurfacePairSettings
 constexpr double EdgePointSpacing = 0.03;
 constexpr double SurfacePointSpacing = 0.018;
 constexpr double FieldReach = 0.03;  // of the distance fields, and of what is deep: tolerances are less
-constexpr double FieldCell = 0.0075; // of the distance fields: they are half a cell off
+constexpr double FieldCell = 0.0075; // side of their cells; distances are up to half of it off
 
 struct MEAMHashingSettings
 {

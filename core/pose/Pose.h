@@ -48,8 +48,8 @@ struct Pose
   /// here and half that it is turned like this.
   double evidence = 0.0;
   double penalty = 0.0; ///< log odds that PatternSearch took off, for it moved the pose to where they are most
-  /// [0, 1], where a copy is here, how sure it is that the part is not turned by one of its near-symmetries: low when
-  /// what breaks them is not in sight.
+  /// [0, 1], where a copy is here, how sure it is that the part is not turned by one of its near-symmetries, or by one
+  /// of its visible side: low when what breaks them is not in sight.
   double certainty = 1.0;
   std::vector<RotationAlternative> alternatives; ///< to the rotation, the likeliest first
   Contradictions contradictions;                 ///< what speaks for another part that looks alike

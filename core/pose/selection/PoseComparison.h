@@ -32,9 +32,8 @@ public:
   /// How many points of the measured surface a pose explains.
   struct Fit
   {
-    double byDistance = 0.0; ///< one for each that lies on the part, less for those beside it: of two poses the better
-                             ///< fit has more
-    double lying = 0.0;      ///< the same, but one for each within half a cell of the distance field
+    double byDistance = 0.0; ///< 1 for each on the part, falling evenly to 0 where it is unexplained
+    double lying = 0.0;      ///< 1 up to half a cell of the distance field, then falling evenly to 0 there, too
   };
   /// A pose, what it explains and what it predicts.
   struct Contender
@@ -52,8 +51,8 @@ public:
   /// The same of a pose that is asked about once: exact from `enough` on. Below it is found at less cost, and what
   /// comes back is below `enough`, but may be more than it is.
   double advantage(const Eigen::Isometry3d& T_scene_model, const Contender& other, double enough) const;
-  /// The same of a turn after which the part's surface lies where it was: other faces lie there, and how each lies in
-  /// the cells of the distance field says nothing.
+  /// The same for a rotation that hardly moves the surface, by `lying`: the field is up to half a cell off, differently
+  /// on each face, which would decide between rotations that fit equally well.
   double advantageOfTurn(const Eigen::Isometry3d& T_scene_model, const Contender& other, double enough) const;
 
 private:
