@@ -85,15 +85,14 @@ public:
       model.visibility->samplesInSight(Eigen::Isometry3d::Identity(), sensor, LeastCosine);
     for (std::size_t k = 0; k < inSight.size(); k += 1 + inSight.size() / MostPoints)
     {
-      this->Points.add(model.surface.points[inSight[k]]);
+      this->Seen.add(model.surface.points[inSight[k]]);
       this->Middle += model.surface.points[inSight[k]].cast<double>();
     }
-    this->Middle /= std::max<double>(this->Points.size(), 1.0); // which a turn onto itself leaves where it is
+    this->Middle /= std::max<double>(this->Seen.size(), 1.0); // which a turn onto itself leaves where it is
     this->Edges = model.visibility->visible(Eigen::Isometry3d::Identity(), sensor)->edges.points;
   }
 
-  /// To be called once.
-  std::vector<Eigen::Isometry3d> turns()
+  std::vector<Eigen::Isometry3d> turns() const
   {
     std::vector<double> overlaps;
     for (int step = 0; step < Steps; ++step)
@@ -101,10 +100,8 @@ public:
       overlaps.push_back(this->overlapAfter(this->turn(step * Step)));
     }
     const bool isRound = *std::min_element(overlaps.begin(), overlaps.end()) >= Round;
-    if (isRound)
-    {
-      this->Middle += 0.5 * (this->fitted(M_PI) * this->Middle - this->Middle);
-    }
+    const Eigen::Vector3d onAxis =
+      isRound ? (this->Middle + 0.5 * (this->fitted(M_PI) * this->Middle - this->Middle)).eval() : this->Middle;
     Symmetries exact = this->Model.symmetries;
     exact.near.clear();
     std::vector<Eigen::Isometry3d> found;
@@ -116,7 +113,7 @@ public:
                           overlaps[step] > overlaps[(step + FirstStep) % Steps];
       if (isRound ? step % StepOfRound == 0 : isPeak)
       {
-        const Eigen::Isometry3d T = isRound ? this->turn(step * Step) : this->fitted(step * Step);
+        const Eigen::Isometry3d T = isRound ? turnAbout(this->Axis, step * Step, onAxis) : this->fitted(step * Step);
         // Turns that differ by an exact symmetry are one.
         const auto isSame = [&](const Eigen::Isometry3d& known) { return turnBetween(T, known, exact) < SameOfSide; };
         if (turnBetween(T, Eigen::Isometry3d::Identity(), asIfRound(this->Model.symmetries)) > SameTurn &&
@@ -145,11 +142,11 @@ private:
 
   double overlapAfter(const Eigen::Isometry3d& T) const
   {
-    const std::vector<float> distances = distancesAfter(T, this->Points, this->Model.surfaceDistance);
+    const std::vector<float> distances = distancesAfter(T, this->Seen, this->Model.surfaceDistance);
     const auto near = static_cast<float>(Near * this->Model.diameter);
     const auto count =
       std::count_if(distances.begin(), distances.end(), [&](float distance) { return distance < near; });
-    return static_cast<double>(count) / std::max<double>(this->Points.size(), 1.0);
+    return static_cast<double>(count) / std::max<double>(this->Seen.size(), 1.0);
   }
 
   /// Where its edges lie on edges best: what is flat does not tell.
@@ -190,7 +187,7 @@ private:
 
   const TrainedModel& Model;
   Eigen::Vector3d Axis;
-  SoAPoints Points;
+  SoAPoints Seen;
   Eigen::Vector3d Middle = Eigen::Vector3d::Zero();
   SoAPoints Edges;
 };
