@@ -20,6 +20,7 @@ constexpr int Ways = 8;                // from a sample along its face
 constexpr int Steps = 4;               // in each
 constexpr float Step = 0.01f;          // of the diameter, from where the distance field ends
 constexpr double FurtherStep = 0.0025; // of the diameter: about what scans of one sensor differ by
+constexpr std::size_t MostMade = 8;    // a megabyte each, for steps beside each other, as parts lie nearer and farther
 
 using Cell = std::array<int, 3>;
 
@@ -98,11 +99,16 @@ std::shared_ptr<const PartPatches> SurroundingPatches::of(const TrainedModel& mo
   const double further = std::max(distance - FieldReach * model.diameter, 0.0);
   const std::lock_guard<std::mutex> lock(this->Making);
   const int steps = static_cast<int>(std::ceil(further / step));
-  if (!this->Made || steps != this->Further)
+  const auto made = this->Made.find(steps);
+  if (made != this->Made.end())
   {
-    this->Further = steps;
-    this->Made = std::make_shared<const PartPatches>(patchesOf(model, static_cast<float>(steps * step), threads));
+    return made->second;
   }
-  return this->Made;
+  if (this->Made.size() >= MostMade)
+  {
+    this->Made.clear();
+  }
+  return this->Made[steps] =
+           std::make_shared<const PartPatches>(patchesOf(model, static_cast<float>(steps * step), threads));
 }
 }

@@ -3,6 +3,7 @@
 
 #include "base/PointCloud.h"
 
+#include <map>
 #include <memory>
 #include <mutex>
 #include <vector>
@@ -24,7 +25,7 @@ struct PartPatches
   std::vector<int> begins;    ///< of each sample the first of its places, and the end of the last one's
 };
 
-/// The patches of a model. Those for one resolution are kept, as scans of one sensor have it. Calls may run in
+/// The patches of a model. Those for some resolutions are kept, as scans of one sensor have them. Calls may run in
 /// parallel.
 class SurroundingPatches
 {
@@ -35,7 +36,7 @@ public:
 
 private:
   mutable std::mutex Making;
-  mutable int Further = 0; ///< steps that the places are farther off than the field reaches
-  mutable std::shared_ptr<const PartPatches> Made;
+  /// By the steps that the places are farther off than the field reaches.
+  mutable std::map<int, std::shared_ptr<const PartPatches>> Made;
 };
 }

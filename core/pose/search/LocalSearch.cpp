@@ -261,51 +261,49 @@ void LocalSearch::turnAboutAxis(Pose& pose, Contender& current) const
   }
 }
 
-void LocalSearch::addTurnsOfSide(const Eigen::Isometry3d& T_scene_model, std::vector<Eigen::Isometry3d>& turns) const
+std::vector<Eigen::Isometry3d> LocalSearch::rotationsOf(const Eigen::Isometry3d& T_scene_model, bool all) const
 {
-  const Eigen::Vector3f towards = this->Model.visibility->towards(T_scene_model, this->InScene.sensor);
-  for (const SideSymmetry& side : this->Model.sides->of(this->Model))
+  std::vector<Eigen::Isometry3d> rotations(this->Rotations.begin(),
+    all ? this->Rotations.end() : this->Rotations.begin() + static_cast<std::ptrdiff_t>(this->NearSymmetries));
+  if (all)
   {
-    if (side.towards.dot(towards) > FromThatSide)
+    const Eigen::Vector3f towards = this->Model.visibility->towards(T_scene_model, this->InScene.sensor);
+    for (const SideSymmetry& side : this->Model.sides->of(this->Model))
     {
-      turns.insert(turns.end(), side.turns.begin(), side.turns.end());
+      if (side.towards.dot(towards) > FromThatSide)
+      {
+        rotations.insert(rotations.end(), side.turns.begin(), side.turns.end());
+      }
     }
   }
+  for (Eigen::Isometry3d& rotation : rotations)
+  {
+    rotation = T_scene_model * rotation;
+  }
+  return rotations;
 }
 
 void LocalSearch::decide(Pose& pose, Contender current) const
 {
   const bool isLikely = claimOf(pose, false) >= WorthAsking;
-  const std::size_t count = isLikely ? this->Rotations.size() : this->NearSymmetries;
-  for (int round = 0; round < Rounds; ++round)
+  std::vector<Eigen::Isometry3d> others = this->rotationsOf(pose.T_scene_model, isLikely);
+  std::size_t nearSymmetries = this->NearSymmetries; // of these, the first ones
+  for (int round = 0; round < Rounds && !others.empty(); ++round)
   {
-    std::vector<Eigen::Isometry3d> turns(
-      this->Rotations.begin(), this->Rotations.begin() + static_cast<std::ptrdiff_t>(count));
+    std::vector<RotationAlternative> rotations{ { pose.T_scene_model, 0.0 } }; // their advantages, and then shares
+    double least = Hopeless;                                                   // against the best of them
+    for (const Eigen::Isometry3d& other : others)
+    {
+      rotations.push_back({ other, this->Comparison.advantageOfTurn(other, current, least) });
+      least = std::max(least, rotations.back().share + Hopeless);
+    }
     if (isLikely)
     {
-      this->addTurnsOfSide(pose.T_scene_model, turns);
-    }
-    if (turns.empty())
-    {
-      return;
-    }
-    const double logOdds = isLikely ? this->Collector.logOdds(pose.T_scene_model, this->Rates) : 0.0;
-    std::vector<RotationAlternative> rotations{ { pose.T_scene_model, 0.0 } }; // their advantages, and then shares
-    for (const Eigen::Isometry3d& turn : turns)
-    {
-      const Eigen::Isometry3d rotated = pose.T_scene_model * turn;
-      double advantage = this->Comparison.advantageOfTurn(rotated, current, Hopeless);
-      if (isLikely && advantage > Hopeless)
-      {
-        advantage += SureAdvantage * (this->Collector.logOdds(rotated, this->Rates) - logOdds);
-      }
-      rotations.push_back({ rotated, advantage });
-    }
-    if (isLikely && this->Depth)
-    {
+      this->addEvidence(rotations, least);
       this->addDepth(rotations);
     }
     const std::size_t best = std::max_element(rotations.begin(), rotations.end(), hasLess) - rotations.begin();
+    const Eigen::Isometry3d T_best = rotations[best].T_scene_model;
     const double most = rotations[best].share;
     double odds = 0.0; // of all rotations against the best
     for (RotationAlternative& rotation : rotations)
@@ -325,18 +323,41 @@ void LocalSearch::decide(Pose& pose, Contender current) const
     }
     std::stable_sort(pose.alternatives.begin(), pose.alternatives.end(),
       [](const RotationAlternative& a, const RotationAlternative& b) { return hasLess(b, a); });
-    pose.T_scene_model = rotations[best].T_scene_model;
-    if (best <= this->NearSymmetries) // nothing to refine, and the others are the same as seen from it
+    pose.T_scene_model = T_best;
+    if (best <= nearSymmetries) // nothing to refine, and the others are the same as seen from it
     {
       return;
     }
     pose = refinePoses({ pose }, this->InScene, this->Model, this->AfterTurn)[0];
     current = this->Comparison.contender(pose.T_scene_model);
+    others.clear(); // What was hopeless is more so against the refined pose.
+    nearSymmetries = 0;
+    for (RotationAlternative& other : pose.alternatives)
+    {
+      other.T_scene_model = pose.T_scene_model * T_best.inverse() * other.T_scene_model;
+      others.push_back(other.T_scene_model);
+    }
+  }
+}
+
+void LocalSearch::addEvidence(std::vector<RotationAlternative>& rotations, double least) const
+{
+  const double logOdds = this->Collector.logOdds(rotations.front().T_scene_model, this->Rates);
+  for (auto other = rotations.begin() + 1; other != rotations.end(); ++other)
+  {
+    if (other->share > least)
+    {
+      other->share += SureAdvantage * (this->Collector.logOdds(other->T_scene_model, this->Rates) - logOdds);
+    }
   }
 }
 
 void LocalSearch::addDepth(std::vector<RotationAlternative>& rotations) const
 {
+  if (!this->Depth)
+  {
+    return;
+  }
   const double least = std::max_element(rotations.begin(), rotations.end(), hasLess)->share + Hopeless;
   std::optional<DepthFit::Rendered> first; // as most poses have no other rotation that is not hopeless
   for (auto other = rotations.begin() + 1; other != rotations.end(); ++other)

@@ -58,10 +58,13 @@ private:
   void turnAboutAxis(Pose& pose, Contender& current) const;
   /// Takes the likeliest rotation, by the comparison and, of a pose that is likely, by the evidence and the depth.
   void decide(Pose& pose, Contender current) const;
-  /// Of a part that looks more symmetric than it is from where the sensor stands, in the part's frame.
-  void addTurnsOfSide(const Eigen::Isometry3d& T_scene_model, std::vector<Eigen::Isometry3d>& turns) const;
-  /// Adds what the measured depth says for each of the rotations against the first, where their share, which is the
-  /// advantage here, is not hopeless.
+  /// Poses that hardly move the surface, the near-symmetries first. `all`: those beyond them, too, of the side that the
+  /// sensor sees among them.
+  std::vector<Eigen::Isometry3d> rotationsOf(const Eigen::Isometry3d& T_scene_model, bool all) const;
+  /// Adds the evidence for each of the rotations against the first to their share, which is the advantage here, where
+  /// it is more than `least`.
+  void addEvidence(std::vector<RotationAlternative>& rotations, double least) const;
+  /// The same with the measured depth where it tells of rotations, of those that are not hopeless.
   void addDepth(std::vector<RotationAlternative>& rotations) const;
 
   const Scene& InScene;

@@ -3,9 +3,9 @@
 
 #include "base/sequences/Sequences.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <opencv2/core.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -20,6 +20,7 @@ constexpr std::size_t FewestOfResection = 50;  // twelve numbers are looked for
 constexpr double MostPixelsOff = 2.0;          // root mean square: what lenses without distortion's model leave
 constexpr double AsWell = 2.0;                 // times as far off: less perspective than so is none,
 constexpr double Rounding = 1e-3;              // or than so many pixels, which rounded coordinates are off
+constexpr double Singular = 1e-12;             // of the cube of a matrix's norm, its determinant: rounding
 constexpr double LeastDepth = 1e-3;            // of the cloud's size, which a third direction of the points spans
 
 struct PixelOfPoint
@@ -39,21 +40,27 @@ Eigen::Matrix3d axesLooking(const Eigen::Vector3d& columns, const Eigen::Vector3
 /// Its translation is where the sensor is, in units from the middle.
 std::optional<ResectedSensor> resectPinhole(const std::vector<PixelOfPoint>& pixels)
 {
-  Eigen::Matrix<double, 12, 12> sum = Eigen::Matrix<double, 12, 12>::Zero();
+  cv::Matx<double, 12, 12> sum; // by OpenCV: Eigen's decompositions of this size take half a minute to compile
   for (const PixelOfPoint& each : pixels)
   {
     for (int k = 0; k < 2; ++k)
     {
-      Eigen::Matrix<double, 12, 1> row = Eigen::Matrix<double, 12, 1>::Zero();
-      row.segment<4>(4 * k) = each.point;
-      row.tail<4>() = -each.pixel[k] * each.point;
-      sum += row * row.transpose();
+      cv::Matx<double, 12, 1> row;
+      for (int i = 0; i < 4; ++i)
+      {
+        row(4 * k + i) = each.point[i];
+        row(8 + i) = -each.pixel[k] * each.point[i];
+      }
+      sum += row * row.t();
     }
   }
-  const Eigen::Matrix<double, 12, 1> solution =
-    Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 12, 12>>(sum).eigenvectors().col(0);
+  cv::Mat1d solution;
+  cv::SVD::solveZ(sum, solution);
   Eigen::Matrix<double, 3, 4> P;
-  P << solution.segment<4>(0).transpose(), solution.segment<4>(4).transpose(), solution.segment<4>(8).transpose();
+  for (int i = 0; i < 12; ++i)
+  {
+    P(i / 4, i % 4) = solution(i);
+  }
   P *= P(2, 3) < 0.0 ? -1.0 : 1.0; // the middle is in front of the sensor
   double off = 0.0;
   for (const PixelOfPoint& each : pixels)
@@ -67,11 +74,14 @@ std::optional<ResectedSensor> resectPinhole(const std::vector<PixelOfPoint>& pix
   }
   const Eigen::Matrix3d M = P.leftCols<3>();
   ResectedSensor result;
-  result.T_sensor_scan.translation() = -M.fullPivLu().solve(P.col(3));
-  if (!result.T_sensor_scan.translation().allFinite() || !M.fullPivLu().isInvertible())
+  Eigen::Matrix3d inverse;
+  bool isInvertible = false;
+  M.computeInverseWithCheck(inverse, isInvertible, Singular * std::pow(M.norm(), 3));
+  if (!isInvertible)
   {
     return std::nullopt;
   }
+  result.T_sensor_scan.translation() = -inverse * P.col(3);
   result.T_sensor_scan.linear() = axesLooking(M.row(0).transpose(), M.row(2).transpose().normalized());
   result.isMirrored = M.row(1).dot(result.T_sensor_scan.linear().row(1)) < 0.0;
   result.off = std::sqrt(off);
@@ -87,7 +97,7 @@ ResectedSensor resectOrthographic(const std::vector<PixelOfPoint>& pixels)
     sum += each.point * each.point.transpose();
     ofPixels += each.point * each.pixel.transpose();
   }
-  const Eigen::Matrix<double, 4, 2> fit = sum.ldlt().solve(ofPixels);
+  const Eigen::Matrix<double, 4, 2> fit = sum.inverse() * ofPixels;
   ResectedSensor result;
   result.perspective = false;
   for (const PixelOfPoint& each : pixels)
