@@ -16,17 +16,17 @@ function(meam_add_script_test name labels)
 endfunction()
 
 # NAME.py under the plain interpreter and, with ParaView's VTK, under pvpython with the plugin loaded: there all of them in
-# one test, for which ParaView starts once. ONLY_PYTHON3 is for what takes longer, which also starts first: the filters are
-# the same ones. The plain interpreter has its turn in the build for plain VTK, and with --long beside ParaView, too.
-# ONLY_RELEASE is for what no version of VTK changes, the results of core and the processes of the package: it is left out
-# where the core is another build's, and runs beside ParaView every day.
+# one test, for which ParaView starts once; with --long each under the plain interpreter, too. ONLY_PYTHON3 is for what takes
+# longer, which has the plain interpreter alone, every day, and starts first: the filters are the same ones. ONLY_RELEASE is for
+# what no version of VTK changes, the results of core and the processes of the package: it is left out where the core is
+# another build's.
 function(meam_add_filter_test name)
   if("ONLY_RELEASE" IN_LIST ARGN AND PPFMEAM_CORE_DIR)
     return()
   endif()
   set(script "${CMAKE_CURRENT_SOURCE_DIR}/${name}.py")
   set(labels filters)
-  if(PPFMEAM_USE_PARAVIEW AND NOT "ONLY_RELEASE" IN_LIST ARGN)
+  if(PPFMEAM_USE_PARAVIEW AND NOT "ONLY_PYTHON3" IN_LIST ARGN)
     list(APPEND labels long)
   endif()
   meam_add_script_test(${name}.python3 "${labels}" "${Python3_EXECUTABLE}" "${script}")
