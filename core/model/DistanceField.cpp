@@ -37,6 +37,8 @@ void findCells(const Eigen::Matrix<float, 3, 4>& toCells, const Eigen::Array3i& 
   }
 }
 
+constexpr int Lanes = 16; // cells of a row at once, which is a few of them long
+
 /// A row of cells along x.
 struct Row
 {
@@ -53,28 +55,39 @@ MEAM_ALL_VECTORS
 void lower(const Row& row, const Eigen::Vector3f& point, const Eigen::Vector3f& direction, bool isNormal, float spacing,
   float farthest)
 {
-  const float x = point.x(), dx = direction.x(), cell = row.cell, step = row.step;
+  const float x = point.x(), dx = direction.x(), cell = row.cell, inverseStep = 1.0f / row.step;
   const float y = row.y - point.y(), z = row.z - point.z();
   const float alongYZ = direction.y() * y + direction.z() * z, squaredYZ = y * y + z * z;
-  constexpr int lanes = 16; // rows are a few of them long, and what lies beyond is dropped
-  for (int first = row.begin; first < row.end; first += lanes)
+  for (int first = row.begin; first < row.end; first += Lanes)
   {
-    int stored[lanes];
+    std::uint8_t found[Lanes];
 #pragma omp simd
-    for (int k = 0; k < lanes; ++k)
+    for (int k = 0; k < Lanes; ++k)
     {
       const float offset = (static_cast<float>(first + k) + 0.5f) * cell - x;
       const float along = std::abs(dx * offset + alongYZ); // the direction
       const float across = std::sqrt(std::max(0.0f, offset * offset + squaredYZ - along * along));
-      const double away = isNormal ? along : across; // in double precision, as std::hypot has it
-      const double beyond = std::max(0.0f, (isNormal ? across : along) - spacing);
-      const float steps = static_cast<float>(std::sqrt(away * away + beyond * beyond)) / step;
-      stored[k] = static_cast<int>(steps < farthest ? steps : farthest);
+      const float away = isNormal ? along : across;
+      const float beyond = std::max(0.0f, (isNormal ? across : along) - spacing);
+      const float steps = std::sqrt(away * away + beyond * beyond) * inverseStep;
+      found[k] = static_cast<std::uint8_t>(static_cast<int>(steps < farthest ? steps : farthest));
     }
-    const int count = std::min(lanes, row.end - first);
-    for (int k = 0; k < count; ++k)
+    std::uint8_t* stored = row.stored + first;
+    const int count = std::min(Lanes, row.end - first);
+    if (count == Lanes)
     {
-      row.stored[first + k] = static_cast<std::uint8_t>(std::min<int>(stored[k], row.stored[first + k]));
+#pragma omp simd
+      for (int k = 0; k < Lanes; ++k)
+      {
+        stored[k] = std::min(found[k], stored[k]);
+      }
+    }
+    else
+    {
+      for (int k = 0; k < count; ++k)
+      {
+        stored[k] = std::min(found[k], stored[k]);
+      }
     }
   }
 }
@@ -130,6 +143,9 @@ DistanceField::DistanceField(
           const int half = static_cast<int>(std::sqrt(left) * this->InverseCell) + 1;
           row.begin = std::max(row.begin, middle - half);
           row.end = std::min(row.end, middle + half + 1);
+          const int whole = (row.end - row.begin + Lanes - 1) / Lanes * Lanes; // what lies beyond is out of reach
+          row.end = std::min(row.begin + whole, this->Size.x());
+          row.begin = std::max(row.end - whole, 0);
           row.stored = &this->Distances[(static_cast<std::size_t>(z) * this->Size.y() + y) * this->Size.x()];
           lower(row, point, directions[i], kind == Kind::Surface, static_cast<float>(spacing), Farthest);
         }

@@ -286,10 +286,13 @@ std::vector<Eigen::Isometry3d> LocalSearch::rotationsOf(const Eigen::Isometry3d&
 void LocalSearch::decide(Pose& pose, Contender current) const
 {
   const bool isLikely = claimOf(pose, false) >= WorthAsking;
-  std::vector<Eigen::Isometry3d> others = this->rotationsOf(pose.T_scene_model, isLikely);
-  std::size_t nearSymmetries = this->NearSymmetries; // of these, the first ones
-  for (int round = 0; round < Rounds && !others.empty(); ++round)
+  for (int round = 0; round < Rounds; ++round)
   {
+    const std::vector<Eigen::Isometry3d> others = this->rotationsOf(pose.T_scene_model, isLikely);
+    if (others.empty())
+    {
+      return;
+    }
     std::vector<RotationAlternative> rotations{ { pose.T_scene_model, 0.0 } }; // their advantages, and then shares
     double least = Hopeless;                                                   // against the best of them
     for (const Eigen::Isometry3d& other : others)
@@ -303,7 +306,6 @@ void LocalSearch::decide(Pose& pose, Contender current) const
       this->addDepth(rotations);
     }
     const std::size_t best = std::max_element(rotations.begin(), rotations.end(), hasLess) - rotations.begin();
-    const Eigen::Isometry3d T_best = rotations[best].T_scene_model;
     const double most = rotations[best].share;
     double odds = 0.0; // of all rotations against the best
     for (RotationAlternative& rotation : rotations)
@@ -323,20 +325,13 @@ void LocalSearch::decide(Pose& pose, Contender current) const
     }
     std::stable_sort(pose.alternatives.begin(), pose.alternatives.end(),
       [](const RotationAlternative& a, const RotationAlternative& b) { return hasLess(b, a); });
-    pose.T_scene_model = T_best;
-    if (best <= nearSymmetries) // nothing to refine, and the others are the same as seen from it
+    pose.T_scene_model = rotations[best].T_scene_model;
+    if (best <= this->NearSymmetries) // nothing to refine, and the others are the same as seen from it
     {
       return;
     }
     pose = refinePoses({ pose }, this->InScene, this->Model, this->AfterTurn)[0];
     current = this->Comparison.contender(pose.T_scene_model);
-    others.clear(); // What was hopeless is more so against the refined pose.
-    nearSymmetries = 0;
-    for (RotationAlternative& other : pose.alternatives)
-    {
-      other.T_scene_model = pose.T_scene_model * T_best.inverse() * other.T_scene_model;
-      others.push_back(other.T_scene_model);
-    }
   }
 }
 

@@ -120,7 +120,7 @@ TEST(InstanceFinishing, ALongRowOfWrongPosesEndsIt)
 {
   Finishing finishing(copiesAndWrongOnes(100));
   finishing.settings.excludesOverlaps = false;
-  EXPECT_EQ(lookedAtOf(finishing), 24) << "three that are sure, and 16 that are not, in lots of eight";
+  EXPECT_EQ(lookedAtOf(finishing), 40) << "three that are sure, and 32 that are not, in lots of eight";
   finishing.settings.maximumPoses = 5;
   EXPECT_EQ(lookedAtOf(finishing), 19) << "three that are sure, and 15 that are not, in lots of seven and of four";
 }
