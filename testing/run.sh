@@ -5,7 +5,8 @@
 #   testing/run.sh [--long] [CTEST ARGUMENT...]      testing/run.sh -L core, testing/run.sh --long -R Hashing
 #
 # Tests with the label `long` (all scenes of a dataset, thousands of damaged files, libFuzzer for a minute a reader, each test
-# of core in the build where it does not run every day) and the build of the benchmarks are left out without --long.
+# of core in the build where it does not run every day, each short script of a filter in a process of its own) and the build of
+# the benchmarks are left out without --long.
 # The dataset tests look for data in $PPFMEAM_DATA and are skipped without it.
 set -uo pipefail
 without=(-LE '^long$')
@@ -46,7 +47,7 @@ if [ ${#failed[@]} -gt 0 ]; then
   exit 1
 fi
 if [ "$found" = 0 ]; then
-  echo "no test fits: $*"
+  echo "no test fits: $* (those of a single filter run with --long)"
   exit 1
 fi
 echo "all tests passed"

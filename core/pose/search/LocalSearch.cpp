@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace meam
 {
@@ -340,10 +341,10 @@ void LocalSearch::addEvidence(std::vector<RotationAlternative>& rotations, doubl
   const double logOdds = this->Collector.logOdds(rotations.front().T_scene_model, this->Rates);
   for (auto other = rotations.begin() + 1; other != rotations.end(); ++other)
   {
-    if (other->share > least)
-    {
-      other->share += SureAdvantage * (this->Collector.logOdds(other->T_scene_model, this->Rates) - logOdds);
-    }
+    other->share =
+      other->share > least
+        ? other->share + SureAdvantage * (this->Collector.logOdds(other->T_scene_model, this->Rates) - logOdds)
+        : -std::numeric_limits<double>::infinity();
   }
 }
 

@@ -62,7 +62,7 @@ private:
   /// sensor sees among them.
   std::vector<Eigen::Isometry3d> rotationsOf(const Eigen::Isometry3d& T_scene_model, bool all) const;
   /// Adds the evidence for each of the rotations against the first to their share, which is the advantage here, where
-  /// it is more than `least`.
+  /// it is more than `least`; with less a rotation is none.
   void addEvidence(std::vector<RotationAlternative>& rotations, double least) const;
   /// The same with the measured depth where it tells of rotations, of those that are not hopeless.
   void addDepth(std::vector<RotationAlternative>& rotations) const;

@@ -18,7 +18,8 @@ constexpr double WorthFinishing = 0.5; // place: what is likelier is finished wh
 constexpr double WorthJudging = 1e-3;  // place: what is not finished is judged where it lies
 constexpr double Hopeless = -6.0;      // log odds where it lies: with less a pose that is finished comes to nothing
 constexpr int MostFruitless = 32;      // finished in a row of which none became sure: further ones hardly will,
-constexpr int FruitlessOfFew = 16;     // or so many where few are asked for
+constexpr int FruitlessOfAsked = 3;    // or so many for each pose that is asked for, but no fewer than
+constexpr int LeastFruitless = 16;     // these: the order by scores is not that of finished poses
 constexpr double SureRotation = 0.5;   // share of its rotation: with less a pose is none of those that are wanted
 constexpr double ClearlyMore = 3.0;    // log odds of a sure pose over those of one that it excludes
 
@@ -98,7 +99,7 @@ FinishedInstances InstanceFinishing::finished(
   int enough = 0; // of these, those whose rotation is sure
   const int asked = this->Settings.maximumPoses;
   const int wanted = this->Settings.sureCopies > 0 ? this->Settings.sureCopies : asked > 0 ? asked + SpareCopies : 0;
-  const int most = asked > 0 ? FruitlessOfFew : MostFruitless;
+  const int most = asked > 0 ? std::clamp(FruitlessOfAsked * asked, LeastFruitless, MostFruitless) : MostFruitless;
   int fruitless = 0;
   std::vector<int> asScored;
   const int count = static_cast<int>(selected.size());

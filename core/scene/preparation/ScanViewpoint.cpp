@@ -4,7 +4,7 @@
 #include "base/Error.h"
 #include "scene/preparation/SensorResection.h"
 
-#include <Eigen/LU>
+#include <Eigen/Cholesky>
 
 #include <algorithm>
 #include <cmath>
@@ -118,7 +118,7 @@ OriginView viewFromOrigin(const std::vector<GridSample>& samples, const Eigen::V
   {
     return view;
   }
-  const Eigen::Matrix<double, 3, 2> fit = sum.inverse() * ofPixels;
+  const Eigen::Matrix<double, 3, 2> fit = sum.ldlt().solve(ofPixels);
   const double off = (squares - fit.transpose() * ofPixels).trace() / static_cast<double>(ahead);
   view.off = std::sqrt(std::max(off, 0.0));
   const Eigen::Vector3d column = fit.col(0) - fit.col(0).dot(forward) * forward;

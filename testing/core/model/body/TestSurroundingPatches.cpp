@@ -67,6 +67,7 @@ TEST(SurroundingPatches, aScanOfCoarserPixelsHasThemFarther)
   EXPECT_LT(least, 5.0 + 0.0025 * model.diameter + 0.01 * model.diameter);
   EXPECT_LT(most, 5.0 + (0.0025 + 0.04) * model.diameter);
   EXPECT_EQ(far->ofSamples, near->ofSamples);
+  EXPECT_EQ(model.surroundings->of(model, 5.0, 1), far);
   EXPECT_EQ(model.surroundings->of(model, 0.0, 1), near) << "kept, as that for coarser pixels is";
   EXPECT_EQ(model.surroundings->of(model, 5.0 - 0.001 * model.diameter, 1)->beside, far->beside) << "within a step";
 }

@@ -108,6 +108,7 @@ TEST(InstanceFinishing, WhereEnoughAreSureTheUnlikelyStayAsTheyWereScored)
 {
   Finishing finishing(copiesAndWrongOnes(30));
   finishing.settings.excludesOverlaps = false;
+  EXPECT_EQ(lookedAtOf(finishing), 33);
   finishing.settings.maximumPoses = 1; // and two to spare
   EXPECT_EQ(lookedAtOf(finishing), 4) << "those of the smallest lot";
   finishing.settings.maximumPoses = 2; // of four, one is missing: nothing but a long row of wrong ones ends it
@@ -121,8 +122,10 @@ TEST(InstanceFinishing, ALongRowOfWrongPosesEndsIt)
   Finishing finishing(copiesAndWrongOnes(100));
   finishing.settings.excludesOverlaps = false;
   EXPECT_EQ(lookedAtOf(finishing), 40) << "three that are sure, and 32 that are not, in lots of eight";
+  finishing.settings.maximumPoses = 20;
+  EXPECT_EQ(lookedAtOf(finishing), 40) << "no more than where all are wanted";
   finishing.settings.maximumPoses = 5;
-  EXPECT_EQ(lookedAtOf(finishing), 19) << "three that are sure, and 15 that are not, in lots of seven and of four";
+  EXPECT_EQ(lookedAtOf(finishing), 19) << "three that are sure, and 16 that are not, in lots of seven and of four";
 }
 
 TEST(InstanceFinishing, WhatIsLeftComesAfterWhatIsFinished)
