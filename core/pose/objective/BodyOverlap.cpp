@@ -10,8 +10,6 @@ namespace meam
 namespace
 {
 constexpr double LeastShare = 0.05; // of the surface that lies inside; less may be where the part is bent
-constexpr std::size_t Strides = 4;  // first one point of so many: where none is deep, hardly a twentieth of them is,
-constexpr double EnoughToSkip = 16; // points, if that twentieth are so many
 constexpr float BoxMargin = 1e-3f;  // of a box's sides: more than rounding
 
 /// Whether an axis of one or the other box, or one across both, has the box and the one that `T` takes it to on either
@@ -48,16 +46,13 @@ bool reachesInto(const TrainedModel& model, const Eigen::Isometry3f& T)
 {
   const std::vector<int>& points = model.verificationPoints;
   const double enough = std::max(1.0, LeastShare * static_cast<double>(points.size()));
-  const std::size_t strides = enough < EnoughToSkip ? 1 : Strides;
   int count = 0;
-  for (std::size_t first = 0; first < strides && (first == 0 || count > 0); ++first)
-  {
-    for (std::size_t k = first; k < points.size() && count < enough; k += strides)
+  return std::any_of(points.begin(), points.end(),
+    [&](int i)
     {
-      count += model.interior->isDeep(T * model.surface.points[points[k]]) ? 1 : 0;
-    }
-  }
-  return count >= enough;
+      count += model.interior->isDeep(T * model.surface.points[i]) ? 1 : 0;
+      return count >= enough;
+    });
 }
 }
 
