@@ -43,6 +43,7 @@ packages=(
   libjs-three # pages in 3D: ppfmeam detect --report
   libutfcpp-dev libdouble-conversion-dev liblzma-dev # what VTK::IOCore's CMake files ask for
   libgtest-dev libbenchmark-dev
+  python3-nbclient python3-ipykernel # a notebook in a kernel: TestNotebook
   qemu-user # a processor without AVX: TestSameBits
   "${suite[@]}"
 )

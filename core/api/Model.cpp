@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "base/Bounds.h"
 #include "meam.h"
-#include "model/ModelFile.h"
+#include "model/file/ModelFile.h"
 #include "model/TrainedModel.h"
 
 namespace meam

@@ -97,6 +97,12 @@ Eigen::Isometry3d transformOf(const double* numbers)
   return T;
 }
 
+void appendNumbersOf(const Eigen::Isometry3d& T, std::vector<double>& numbers)
+{
+  const Eigen::Matrix<double, 4, 4, Eigen::RowMajor> rows = T.matrix();
+  numbers.insert(numbers.end(), rows.data(), rows.data() + rows.size());
+}
+
 Eigen::Isometry3d principalFrame(const PrecisePoints& points)
 {
   // Moments are about one of the points, so they keep their precision far from the origin.

@@ -10,6 +10,8 @@ bool isRigid(const Eigen::Matrix4d& matrix);
 
 /// The transform of 16 numbers, row by row.
 Eigen::Isometry3d transformOf(const double* numbers);
+/// Puts these of a transform behind others.
+void appendNumbersOf(const Eigen::Isometry3d& T, std::vector<double>& numbers);
 
 /// A right-handed frame whose first column is `axis`; a continuous function of it almost everywhere.
 Eigen::Matrix3f frameAround(const Eigen::Vector3f& axis);

@@ -17,6 +17,7 @@ void PairTable::deriveVotes(const Points& points, const Points& directions, Pair
   }
   this->votes.assign(this->size() + VoteBlock, 0);
   this->mostOfOne = 1;
+  constexpr double stepsOfRadian = (1 << TurnBits) / (2.0 * M_PI);
   for (std::size_t bucket = 0; bucket + 1 < this->offsets.size(); ++bucket)
   {
     std::uint32_t last = UINT32_MAX;
@@ -26,7 +27,8 @@ void PairTable::deriveVotes(const Points& points, const Points& directions, Pair
       const std::uint32_t reference = this->references[k];
       const Eigen::Vector3f d = points[this->referreds[k]] - points[reference];
       const bool against = isOfLines(kind) && directions[reference].dot(d) < 0.0f;
-      const auto turn = static_cast<PairTurn>(std::lround(this->angles[k] * (1 << TurnBits) / (2.0 * M_PI)));
+      const double steps = this->angles[k] * stepsOfRadian;
+      const auto turn = static_cast<PairTurn>(static_cast<int>(steps + (steps < 0.0 ? -0.5 : 0.5))); // rounded
       this->votes[k] = voteEntry(reference, against, turn);
       ofOne = reference == last ? ofOne + 1 : 1; // entries are sorted by reference
       this->mostOfOne = std::max(this->mostOfOne, ofOne);

@@ -79,27 +79,29 @@ std::vector<OccludingContours::Point> OccludingContours::from(const Eigen::Vecto
   cosineRoom.resize(points.size());
   float* cosines = cosineRoom.data();
   findCosines(this->Normals, towards, cosines);
-  for (const auto& [i, mostCosine, begin, end] : this->Bends)
+  thread_local std::vector<int> turning; // bends across which the surface may turn away
+  turning.resize(this->Bends.size());
+  int count = 0;
+  for (int b = 0; b < static_cast<int>(this->Bends.size()); ++b)
   {
-    if (cosines[i] < 0.0f || cosines[i] > mostCosine)
-    {
-      continue;
-    }
-    // Of the crossings from this sample on the nearest.
-    float nearest = 1.0f;
-    int across = -1;
-    for (int n = begin; n < end; ++n)
+    // Without a branch, which would be predicted wrongly.
+    const float cosine = cosines[this->Bends[b].sample];
+    turning[count] = b;
+    count += (cosine >= 0.0f) & (cosine <= this->Bends[b].mostCosine) ? 1 : 0;
+  }
+  for (int t = 0; t < count; ++t)
+  {
+    const auto& [i, mostCosine, begin, end] = this->Bends[turning[t]];
+    // Of the crossings from this sample on the nearest: to the neighbour that turns away most.
+    int across = this->Neighbours[begin];
+    for (int n = begin + 1; n < end; ++n)
     {
       const int k = this->Neighbours[n];
-      const float share = cosines[k] < 0.0f ? cosines[i] / (cosines[i] - cosines[k]) : 1.0f;
-      if (share < nearest)
-      {
-        nearest = share;
-        across = k;
-      }
+      across = cosines[k] < cosines[across] ? k : across;
     }
-    if (across >= 0)
+    if (cosines[across] < 0.0f)
     {
+      const float nearest = cosines[i] / (cosines[i] - cosines[across]);
       const Eigen::Vector3f normal = ((1.0f - nearest) * normals[i] + nearest * normals[across]).normalized();
       const Eigen::Vector3f crossing = (1.0f - nearest) * points[i] + nearest * points[across];
       // On the circle that the surface bends in between both, by the cosine at which it is measured last.

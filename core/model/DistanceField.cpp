@@ -95,13 +95,9 @@ void lower(const Row& row, const Eigen::Vector3f& point, const Eigen::Vector3f& 
 
 DistanceField::DistanceField(
   const Points& points, const Points& directions, Kind kind, double spacing, double reach, double cellSize)
-  : Reach(static_cast<float>(reach))
 {
+  this->tellUpTo(static_cast<float>(reach));
   const float step = this->Reach / Farthest;
-  for (int stored = 0; stored <= Farthest; ++stored)
-  {
-    this->Told[stored] = stored == Farthest ? this->Reach : step * stored;
-  }
   const Eigen::AlignedBox3f box = bounds(points);
   if (box.isEmpty())
   {
@@ -152,6 +148,48 @@ DistanceField::DistanceField(
       }
     }
   }
+}
+
+void DistanceField::tellUpTo(float reach)
+{
+  this->Reach = reach;
+  for (int stored = 0; stored <= Farthest; ++stored)
+  {
+    this->Told[stored] = stored == Farthest ? reach : reach / Farthest * stored;
+  }
+}
+
+DistanceField::Stored DistanceField::stored() const
+{
+  const Eigen::Vector3f &o = this->Origin, &m = this->Middle;
+  return { { o.x(), o.y(), o.z(), m.x(), m.y(), m.z(), this->InverseCell, this->Radius, this->Reach },
+    { this->Size.x(), this->Size.y(), this->Size.z() }, this->Distances };
+}
+
+std::optional<DistanceField> DistanceField::of(Stored stored)
+{
+  constexpr std::size_t numbers = 9;     // of the frame
+  constexpr std::int32_t most = 1 << 20; // cells along an axis, so that 64 bits count all
+  const std::vector<float>& frame = stored.frame;
+  const std::vector<std::int32_t>& size = stored.size;
+  const auto isFinite = [](float value) { return std::isfinite(value); };
+  const auto isCount = [](std::int32_t count) { return count >= 0 && count <= most; };
+  if (frame.size() != numbers || !std::all_of(frame.begin(), frame.end(), isFinite) || !(frame[6] > 0.0f) ||
+      size.size() != 3 || !std::all_of(size.begin(), size.end(), isCount) ||
+      stored.distances.size() != std::uint64_t(size[0]) * size[1] * size[2] + 1)
+  {
+    return std::nullopt;
+  }
+  DistanceField field;
+  field.Origin = Eigen::Vector3f(frame.data());
+  field.Middle = Eigen::Vector3f(frame.data() + 3);
+  field.InverseCell = frame[6];
+  field.Radius = frame[7];
+  field.tellUpTo(frame[8]);
+  field.Size = Eigen::Array3i(size.data());
+  field.Extent = field.Size.cast<float>();
+  field.Distances = std::move(stored.distances);
+  return field;
 }
 
 void DistanceField::at(

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace meam
@@ -21,6 +22,17 @@ public:
   static DistanceField ofSurface(const PointCloud& samples, double spacing, double reach, double cellSize);
   /// From the edges that points with tangents stand for.
   static DistanceField ofEdges(const PointCloud& edges, double spacing, double reach, double cellSize);
+
+  /// As files hold it.
+  struct Stored
+  {
+    std::vector<float> frame;            ///< origin, middle, the inverse of a cell's side, radius, reach
+    std::vector<std::int32_t> size;      ///< cells along x, y and z
+    std::vector<std::uint8_t> distances; ///< in steps of a 255th of the reach: of the cells, and of all outside
+  };
+  Stored stored() const;
+  /// None where the numbers do not fit each other.
+  static std::optional<DistanceField> of(Stored stored);
 
   /// mm, `reach` for all that is farther.
   float at(const Eigen::Vector3f& point) const
@@ -53,6 +65,9 @@ private:
   };
   DistanceField(
     const Points& points, const Points& directions, Kind kind, double spacing, double reach, double cellSize);
+
+  /// Sets the largest distance told, and what the stored steps tell.
+  void tellUpTo(float reach);
 
   Eigen::Vector3f Origin = Eigen::Vector3f::Zero();
   float InverseCell = 1.0f;

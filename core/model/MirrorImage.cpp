@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace meam
 {
@@ -145,17 +146,17 @@ TrainedModel mirroredModel(const TrainedModel& model, const Reflection& reflecti
   return mirrored;
 }
 
-std::optional<MirroredPart> mirroredPart(const TrainedModel& model)
+Mirroring findMirroring(const TrainedModel& model)
 {
   if (model.surface.empty())
   {
-    return std::nullopt;
+    return {};
   }
   const std::vector<Reflection> reflections = reflectionsOf(model);
   const Reflection& best = reflections.front();
   if (best.overlap < LeastShared || best.overlap >= ItsOwn)
   {
-    return std::nullopt;
+    return {};
   }
   std::vector<Reflection> tried;
   std::vector<Eigen::Isometry3d> turns;
@@ -173,13 +174,33 @@ std::optional<MirroredPart> mirroredPart(const TrainedModel& model)
       turns.emplace_back((one.transform() * best.transform()).matrix());
     }
   }
-  return MirroredPart{ mirroredModel(model, best), turns };
+  return { best.at, best.normal, turns };
 }
+}
+
+MirrorImage::MirrorImage(Mirroring known)
+  : Found(std::move(known))
+{
+  std::call_once(this->IsFound, [] {});
+}
+
+const Mirroring& MirrorImage::mirroring(const TrainedModel& model) const
+{
+  std::call_once(this->IsFound, [&] { this->Found = findMirroring(model); });
+  return this->Found;
 }
 
 const MirroredPart* MirrorImage::of(const TrainedModel& model) const
 {
-  std::call_once(this->IsMade, [&] { this->Mirrored = mirroredPart(model); });
+  const Mirroring& found = this->mirroring(model);
+  std::call_once(this->IsMade,
+    [&]
+    {
+      if (!found.turns.empty())
+      {
+        this->Mirrored = MirroredPart{ mirroredModel(model, { found.at, found.normal }), found.turns };
+      }
+    });
   return this->Mirrored ? &*this->Mirrored : nullptr;
 }
 }

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace meam
 {
@@ -191,6 +192,12 @@ private:
   Eigen::Vector3d Middle = Eigen::Vector3d::Zero();
   SoAPoints Edges;
 };
+}
+
+SideSymmetries::SideSymmetries(std::vector<SideSymmetry> known)
+  : Found(std::move(known))
+{
+  std::call_once(this->AreFound, [] {});
 }
 
 const std::vector<SideSymmetry>& SideSymmetries::of(const TrainedModel& model) const

@@ -22,6 +22,10 @@ struct SideSymmetry
 class SideSymmetries
 {
 public:
+  SideSymmetries() = default;
+  /// Of a model of which they are known.
+  explicit SideSymmetries(std::vector<SideSymmetry> known);
+
   /// `model` is the one that holds this.
   const std::vector<SideSymmetry>& of(const TrainedModel& model) const;
 

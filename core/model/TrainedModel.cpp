@@ -5,6 +5,7 @@
 #include "base/PointGrid.h"
 #include "base/sequences/Sequences.h"
 #include "model/body/BodyInterior.h"
+#include "model/file/DerivedFields.h"
 #include "model/MirrorImage.h"
 #include "model/SideSymmetries.h"
 #include "model/body/SurroundingPatches.h"
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <future>
+#include <utility>
 
 namespace meam
 {
@@ -91,19 +93,36 @@ void TrainedModel::deriveFields()
     [&] { return DistanceField::ofSurface(this->surface, SurfacePointSpacing * this->diameter, reach, cell); });
   auto ofEdges = std::async(std::launch::async,
     [&] { return DistanceField::ofEdges(this->edges, EdgePointSpacing * this->diameter, reach, cell); });
-  this->table.deriveVotes(this->edges.points, this->edges.tangents, this->settings.feature);
-  this->surfaceTable.deriveVotes(
-    this->surfacePairPoints.points, this->surfacePairPoints.normals, PairFeatureKind::Surface);
+  this->deriveOthers({});
+  this->surfaceDistance = ofSurface.get();
+  this->edgeDistance = ofEdges.get();
+  this->mirrorImage = std::make_shared<const MirrorImage>();
+  this->sides = std::make_shared<const SideSymmetries>();
+  this->surroundings = std::make_shared<const SurroundingPatches>();
+}
+
+void TrainedModel::deriveFields(DerivedFields known)
+{
+  this->deriveOthers(std::move(known.interior));
+  this->surfaceDistance = std::move(known.surfaceDistance);
+  this->edgeDistance = std::move(known.edgeDistance);
+  this->mirrorImage = std::make_shared<const MirrorImage>(std::move(known.mirroring));
+  this->sides = std::make_shared<const SideSymmetries>(std::move(known.sides));
+  this->surroundings = std::make_shared<const SurroundingPatches>(std::move(known.stepsBeside));
+}
+
+void TrainedModel::deriveOthers(std::vector<std::uint8_t> interiorCells)
+{
   const Eigen::Vector3f sizes = sizesOf(this->surface);
   this->thickness = sizes[0];
   this->width = sizes[1];
   this->verificationPoints = thinSamples(this->surface, VerificationLeaf * this->diameter, this->diameter);
-  this->visibility = std::make_shared<const PredictedVisibility>(*this);
-  this->surfaceDistance = ofSurface.get();
-  this->edgeDistance = ofEdges.get();
-  this->interior = std::make_shared<const BodyInterior>(this->surface, this->diameter, reach);
-  this->mirrorImage = std::make_shared<const MirrorImage>();
-  this->sides = std::make_shared<const SideSymmetries>();
-  this->surroundings = std::make_shared<const SurroundingPatches>();
+  auto ofViews = std::async(std::launch::async, [&] { return std::make_shared<const PredictedVisibility>(*this); });
+  this->table.deriveVotes(this->edges.points, this->edges.tangents, this->settings.feature);
+  this->surfaceTable.deriveVotes(
+    this->surfacePairPoints.points, this->surfacePairPoints.normals, PairFeatureKind::Surface);
+  this->interior = std::make_shared<const BodyInterior>(
+    this->surface, this->diameter, FieldReach * this->diameter, std::move(interiorCells));
+  this->visibility = ofViews.get();
 }
 }

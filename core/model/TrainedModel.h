@@ -16,6 +16,7 @@ class BodyInterior;
 class MirrorImage;
 class SideSymmetries;
 class SurroundingPatches;
+struct DerivedFields;
 
 /// How the edge appearance models come into one table.
 enum class ViewMerging
@@ -105,8 +106,10 @@ struct TrainedModel
   std::shared_ptr<const SideSymmetries> sides;            ///< what looks the same of it from some direction
   std::shared_ptr<const SurroundingPatches> surroundings; ///< patches of its surface and beside it
 
-  /// Makes what voting and verification look up and what files do not hold: to be called when all else is there.
+  /// Makes what voting and verification look up: to be called when all else is there.
   void deriveFields();
+  /// The same with what is known of it from a file.
+  void deriveFields(DerivedFields known);
 
   /// The quantizer of the table's keys, and of the surface table's.
   PairFeatureQuantizer quantizer() const;
@@ -120,5 +123,9 @@ struct TrainedModel
   double votingLeaf() const;
   /// Of the part's surface for which one verification point stands, mm^2, on average.
   double verificationArea() const;
+
+private:
+  /// All but the distance fields, the mirror image, the sides and the patches.
+  void deriveOthers(std::vector<std::uint8_t> interiorCells);
 };
 }

@@ -4,7 +4,7 @@
 #include "base/Error.h"
 #include "base/sequences/Sequences.h"
 #include "model/AppearanceModel.h"
-#include "model/ModelValidation.h"
+#include "model/file/ModelValidation.h"
 #include "vtkMEAMArrays.h"
 #include "vtkMEAMCloudConversion.h"
 #include "vtkMEAMSymmetryConversion.h"

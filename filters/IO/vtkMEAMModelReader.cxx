@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMEAMModelReader.h"
 
-#include "model/ModelFile.h"
+#include "model/file/ModelFile.h"
 #include "vtkMEAMArrays.h"
 #include "vtkMEAMModelConversion.h"
 #include "vtkMEAMRun.h"

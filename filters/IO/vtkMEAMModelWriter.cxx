@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMEAMModelWriter.h"
 
-#include "model/ModelFile.h"
+#include "model/file/ModelFile.h"
 #include "vtkMEAMModelConversion.h"
 #include "vtkMEAMRun.h"
 

@@ -15,7 +15,7 @@
 #include "io/PLYFile.h"
 #include "io/PoseFile.h"
 #include "io/cad/CADFile.h"
-#include "model/ModelFile.h"
+#include "model/file/ModelFile.h"
 #include "pick/io/GraspFile.h"
 #include "scene/preparation/CloudOrganization.h"
 

@@ -60,9 +60,8 @@ std::uint32_t checksum(std::string_view bytes)
 
 void NamedArrays::set(const std::string& name, char type, const void* values, std::size_t size)
 {
-  Array& array = this->Arrays[name];
-  array.type = type;
-  array.bytes.assign(static_cast<const char*>(values), size);
+  this->Own.emplace_back(static_cast<const char*>(values), size);
+  this->Arrays[name] = { type, this->Own.back() };
 }
 
 std::string_view NamedArrays::bytes(const std::string& name, char type, std::size_t size) const
@@ -132,7 +131,7 @@ NamedArrays NamedArrays::unpacked(std::string_view bytes)
     const std::string name(front.bytes(front.number<std::uint32_t>()));
     const char type = front.number<char>();
     const std::string_view values = front.bytes(front.number<std::uint64_t>());
-    arrays.set(name, type, values.data(), values.size());
+    arrays.Arrays[name] = { type, values };
   }
   return arrays;
 }

@@ -4,6 +4,7 @@
 #include "base/PointCloud.h"
 
 #include <cstring>
+#include <list>
 #include <map>
 #include <string>
 #include <string_view>
@@ -16,6 +17,10 @@ namespace meam
 class NamedArrays
 {
 public:
+  NamedArrays() = default;
+  NamedArrays(NamedArrays&&) = default;
+  NamedArrays& operator=(NamedArrays&&) = default;
+
   template <typename T>
   void set(const std::string& name, const std::vector<T>& values)
   {
@@ -55,15 +60,15 @@ public:
 
   /// All arrays in a row, little-endian, with a check sum (CRC-32) at the end.
   std::string packed() const;
-  /// The arrays in such bytes. Throws Error when they are cut off or damaged; allocates no more than their length
-  /// justifies.
+  /// The arrays in such bytes, which stay where they are and have to be there as long as these are read. Throws Error
+  /// when they are cut off or damaged.
   static NamedArrays unpacked(std::string_view bytes);
 
 private:
   struct Array
   {
     char type;
-    std::string bytes;
+    std::string_view bytes;
   };
 
   template <typename T>
@@ -99,5 +104,6 @@ private:
   std::string_view bytes(const std::string& name, char type, std::size_t size) const;
 
   std::map<std::string, Array> Arrays;
+  std::list<std::string> Own; ///< of those that were set
 };
 }

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "model/body/BodyInterior.h"
 
+#include "base/AllVectors.h"
 #include "base/Bounds.h"
+
+#include <utility>
 
 namespace meam
 {
@@ -12,9 +15,37 @@ constexpr float HalfDiagonal = 0.87f; // of a cell, in sides
 constexpr double MostLooked = 0.1;    // of the diameter: nothing that is deeper is near a sample
 constexpr float SurelyBelow = 0.95f;  // cosine, way to the nearest sample against its normal: all points of a cell;
 constexpr float StraightBelow = 0.7f; // of less a point lies beside an edge
+
+/// Of the cells of a row the nearest sample so far.
+struct Row
+{
+  float* squared; ///< mm^2, the distance to it
+  int* samples;
+};
+
+/// Takes a sample for the cells that it is nearer to. `first`: mm along x from the sample to the middle of the first
+/// cell, `cell`: mm between them, `besideSquared`: mm^2 across.
+MEAM_ALL_VECTORS
+void takeNearer(const Row& row, int count, float first, float cell, float besideSquared, int sample)
+{
+#pragma omp simd
+  for (int k = 0; k < count; ++k)
+  {
+    const float along = first + static_cast<float>(k) * cell;
+    const float squared = along * along + besideSquared;
+    const bool isNearer = squared < row.squared[k];
+    row.squared[k] = isNearer ? squared : row.squared[k];
+    row.samples[k] = isNearer ? sample : row.samples[k];
+  }
+}
 }
 
 BodyInterior::BodyInterior(const PointCloud& surface, double diameter, double depth)
+  : BodyInterior(surface, diameter, depth, {})
+{
+}
+
+BodyInterior::BodyInterior(const PointCloud& surface, double diameter, double depth, std::vector<std::uint8_t> cells)
   : Surface(surface)
   , Samples(surface.points, MostLooked * diameter)
   , Box(bounds(surface.points))
@@ -22,34 +53,66 @@ BodyInterior::BodyInterior(const PointCloud& surface, double diameter, double de
   , Deepest(static_cast<float>(MostLooked * diameter))
   , Least(static_cast<float>(depth))
   , CellSize(static_cast<float>(Cell * diameter))
+  , Cells(std::move(cells))
 {
   if (!this->Box.isEmpty())
   {
     this->Size = (this->Box.sizes().array() / this->CellSize).cast<int>() + 1;
   }
-  this->Cells = std::vector<std::atomic<Depth>>(static_cast<std::size_t>(this->Size.prod()));
-}
-
-bool BodyInterior::nearest(const Eigen::Vector3f& point, Eigen::Vector3f& way, Eigen::Vector3f& normal) const
-{
-  const int sample = this->Samples.nearest(point, this->Deepest);
-  if (sample < 0)
+  if (this->Cells.size() != static_cast<std::size_t>(this->Size.prod()))
   {
-    return false;
+    this->Cells = this->depths();
   }
-  way = this->Surface.points[sample] - point;
-  normal = this->Surface.normals[sample];
-  return true;
 }
 
-BodyInterior::Depth BodyInterior::depthOf(const Eigen::Vector3f& middle) const
+std::vector<std::uint8_t> BodyInterior::depths() const
+{
+  const auto count = static_cast<std::size_t>(this->Size.prod());
+  std::vector<float> squared(count, this->Deepest * this->Deepest);
+  std::vector<int> samples(count, -1);
+  const auto rowAt = [&](int y, int z) { return (static_cast<std::size_t>(z) * this->Size.y() + y) * this->Size.x(); };
+  for (std::size_t i = 0; i < this->Surface.size(); ++i)
+  {
+    const Eigen::Array3f place = (this->Surface.points[i] - this->Box.min()).array();
+    const Eigen::Array3i low = ((place - this->Deepest) / this->CellSize).max(0.0f).cast<int>();
+    const Eigen::Array3i high = ((place + this->Deepest) / this->CellSize).cast<int>().min(this->Size - 1);
+    const auto offset = [&](int cell, int axis)
+    { return (static_cast<float>(cell) + 0.5f) * this->CellSize - place[axis]; };
+    for (int z = low.z(); z <= high.z(); ++z)
+    {
+      for (int y = low.y(); y <= high.y(); ++y)
+      {
+        const std::size_t first = rowAt(y, z) + low.x();
+        const float beside = offset(y, 1) * offset(y, 1) + offset(z, 2) * offset(z, 2);
+        takeNearer({ &squared[first], &samples[first] }, high.x() - low.x() + 1, offset(low.x(), 0), this->CellSize,
+          beside, static_cast<int>(i));
+      }
+    }
+  }
+  std::vector<std::uint8_t> depths(count, SomeDeep);
+  for (int z = 0; z < this->Size.z(); ++z)
+  {
+    for (int y = 0; y < this->Size.y(); ++y)
+    {
+      for (int x = 0; x < this->Size.x(); ++x)
+      {
+        const std::size_t cell = rowAt(y, z) + x;
+        if (samples[cell] >= 0)
+        {
+          const Eigen::Vector3f middle =
+            this->Box.min() + this->CellSize * Eigen::Vector3f(x + 0.5f, y + 0.5f, z + 0.5f);
+          depths[cell] =
+            this->depthOf(this->Surface.points[samples[cell]] - middle, this->Surface.normals[samples[cell]]);
+        }
+      }
+    }
+  }
+  return depths;
+}
+
+BodyInterior::Depth BodyInterior::depthOf(const Eigen::Vector3f& way, const Eigen::Vector3f& normal) const
 {
   const float half = HalfDiagonal * this->CellSize;
-  Eigen::Vector3f way, normal;
-  if (!this->nearest(middle, way, normal))
-  {
-    return SomeDeep;
-  }
   const float distance = way.norm(), along = way.dot(normal);
   const bool isShallow = distance < this->Least - half;
   const bool isOutside = distance > 2.0f * half && along < -StraightBelow * distance;
@@ -64,20 +127,18 @@ bool BodyInterior::isDeep(const Eigen::Vector3f& point) const
     return false;
   }
   const Eigen::Array3i place = ((point - this->Box.min()).array() / this->CellSize).cast<int>().min(this->Size - 1);
-  std::atomic<Depth>& cell = this->Cells[(place.z() * this->Size.y() + place.y()) * this->Size.x() + place.x()];
-  Depth depth = cell.load(std::memory_order_relaxed);
-  if (depth == Unknown) // the same whichever thread finds it out
-  {
-    depth = this->depthOf(this->Box.min() + this->CellSize * (place.cast<float>() + 0.5f).matrix());
-    cell.store(depth, std::memory_order_relaxed);
-  }
-  if (depth != SomeDeep)
+  const std::uint8_t depth = this->Cells[(place.z() * this->Size.y() + place.y()) * this->Size.x() + place.x()];
+  if (depth == AllDeep || depth == NoneDeep)
   {
     return depth == AllDeep;
   }
-  Eigen::Vector3f way, normal;
-  const bool isNear = this->nearest(point, way, normal);
-  const float distance = isNear ? way.norm() : 0.0f;
-  return distance > this->Least && way.dot(normal) > StraightBelow * distance;
+  const int sample = this->Samples.nearest(point, this->Deepest);
+  if (sample < 0)
+  {
+    return false;
+  }
+  const Eigen::Vector3f way = this->Surface.points[sample] - point;
+  const float distance = way.norm();
+  return distance > this->Least && way.dot(this->Surface.normals[sample]) > StraightBelow * distance;
 }
 }

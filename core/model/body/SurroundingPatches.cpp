@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <utility>
 
 namespace meam
 {
@@ -38,31 +39,64 @@ Cell cellOf(const Eigen::Vector3f& point, const Symmetries& symmetries, double s
   return { cell.x(), cell.y(), cell.z() };
 }
 
-/// Places beside each sample, `further` (mm) than its face ends.
-std::vector<Points> besideSamples(const TrainedModel& model, float further, int threads)
+/// Along the face of a sample.
+std::array<Eigen::Vector3f, Ways> waysFrom(const Eigen::Vector3f& normal)
 {
-  const float diameter = static_cast<float>(model.diameter);
-  const float reach = static_cast<float>(FieldReach) * diameter;
-  const auto isBeside = [&](const Eigen::Vector3f& point)
-  { return model.surfaceDistance.at(point) > NearlyFarthest * reach; };
+  const Eigen::Vector3f across = normal.unitOrthogonal(), other = normal.cross(across);
+  std::array<Eigen::Vector3f, Ways> ways;
+  for (int way = 0; way < Ways; ++way)
+  {
+    const float angle = static_cast<float>(2.0 * M_PI * way / Ways);
+    ways[way] = std::cos(angle) * across + std::sin(angle) * other;
+  }
+  return ways;
+}
+
+bool isBeside(const TrainedModel& model, const Eigen::Vector3f& point)
+{
+  return model.surfaceDistance.at(point) > NearlyFarthest * static_cast<float>(FieldReach * model.diameter);
+}
+
+/// mm along the face of a sample.
+float distanceOf(int step, const TrainedModel& model)
+{
+  return (static_cast<float>(FieldReach) + static_cast<float>(step) * Step) * static_cast<float>(model.diameter);
+}
+
+std::vector<std::uint8_t> findSteps(const TrainedModel& model, int threads)
+{
+  std::vector<std::uint8_t> steps(Ways * model.surface.size());
+  parallelForEach(static_cast<int>(model.surface.size()), threads, {},
+    [&](int i)
+    {
+      const std::array<Eigen::Vector3f, Ways> ways = waysFrom(model.surface.normals[i]);
+      for (int way = 0; way < Ways; ++way)
+      {
+        int step = 0;
+        while (step < Steps && !isBeside(model, model.surface.points[i] + distanceOf(step, model) * ways[way]))
+        {
+          ++step;
+        }
+        steps[static_cast<std::size_t>(i) * Ways + way] = static_cast<std::uint8_t>(step);
+      }
+    });
+  return steps;
+}
+
+/// Places beside each sample, `further` (mm) than its face ends.
+std::vector<Points> besideSamples(
+  const TrainedModel& model, const std::vector<std::uint8_t>& steps, float further, int threads)
+{
   std::vector<Points> beside(model.surface.size());
   parallelForEach(static_cast<int>(beside.size()), threads, {},
     [&](int i)
     {
-      const Eigen::Vector3f& normal = model.surface.normals[i];
-      const Eigen::Vector3f across = normal.unitOrthogonal(), other = normal.cross(across);
+      const std::array<Eigen::Vector3f, Ways> ways = waysFrom(model.surface.normals[i]);
       for (int way = 0; way < Ways; ++way)
       {
-        const float angle = static_cast<float>(2.0 * M_PI * way / Ways);
-        const Eigen::Vector3f along = std::cos(angle) * across + std::sin(angle) * other;
-        float distance = reach;
-        int step = 0;
-        for (; step < Steps && !isBeside(model.surface.points[i] + distance * along); ++step)
-        {
-          distance += Step * diameter;
-        }
-        const Eigen::Vector3f point = model.surface.points[i] + (distance + further) * along;
-        if (step < Steps && isBeside(point) && !model.interior->isDeep(point))
+        const int step = steps[static_cast<std::size_t>(i) * Ways + way];
+        const Eigen::Vector3f point = model.surface.points[i] + (distanceOf(step, model) + further) * ways[way];
+        if (step < Steps && isBeside(model, point) && !model.interior->isDeep(point))
         {
           beside[i].push_back(point);
         }
@@ -71,7 +105,7 @@ std::vector<Points> besideSamples(const TrainedModel& model, float further, int 
   return beside;
 }
 
-PartPatches patchesOf(const TrainedModel& model, float further, int threads)
+PartPatches patchesOf(const TrainedModel& model, const std::vector<std::uint8_t>& steps, float further, int threads)
 {
   PartPatches patches;
   std::map<Cell, int> numbers;
@@ -82,7 +116,7 @@ PartPatches patchesOf(const TrainedModel& model, float further, int threads)
   };
   patches.ofSamples = mapped<int>(model.surface.points, numberOf);
   patches.begins.push_back(0);
-  for (const Points& places : besideSamples(model, further, threads))
+  for (const Points& places : besideSamples(model, steps, further, threads))
   {
     patches.beside.insert(patches.beside.end(), places.begin(), places.end());
     patches.begins.push_back(static_cast<int>(patches.beside.size()));
@@ -93,13 +127,27 @@ PartPatches patchesOf(const TrainedModel& model, float further, int threads)
 }
 }
 
+SurroundingPatches::SurroundingPatches(std::vector<std::uint8_t> steps)
+  : Found(std::move(steps))
+{
+}
+
+const std::vector<std::uint8_t>& SurroundingPatches::steps(const TrainedModel& model, int threads) const
+{
+  const std::lock_guard<std::mutex> lock(this->Finding);
+  if (this->Found.size() != Ways * model.surface.size())
+  {
+    this->Found = findSteps(model, threads);
+  }
+  return this->Found;
+}
+
 std::shared_ptr<const PartPatches> SurroundingPatches::of(const TrainedModel& model, double distance, int threads) const
 {
   const double step = FurtherStep * model.diameter;
-  const double further = std::max(distance - FieldReach * model.diameter, 0.0);
+  const int farther = static_cast<int>(std::ceil(std::max(distance - FieldReach * model.diameter, 0.0) / step));
   const std::lock_guard<std::mutex> lock(this->Making);
-  const int steps = static_cast<int>(std::ceil(further / step));
-  const auto made = this->Made.find(steps);
+  const auto made = this->Made.find(farther);
   if (made != this->Made.end())
   {
     return made->second;
@@ -108,7 +156,7 @@ std::shared_ptr<const PartPatches> SurroundingPatches::of(const TrainedModel& mo
   {
     this->Made.clear();
   }
-  return this->Made[steps] =
-           std::make_shared<const PartPatches>(patchesOf(model, static_cast<float>(steps * step), threads));
+  return this->Made[farther] = std::make_shared<const PartPatches>(
+           patchesOf(model, this->steps(model, threads), static_cast<float>(farther * step), threads));
 }
 }

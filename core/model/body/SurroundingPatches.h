@@ -3,6 +3,7 @@
 
 #include "base/PointCloud.h"
 
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -30,12 +31,19 @@ struct PartPatches
 class SurroundingPatches
 {
 public:
+  SurroundingPatches() = default;
+  /// Of a model of which the steps are known: they are found anew where there are not as many as it has samples.
+  explicit SurroundingPatches(std::vector<std::uint8_t> steps);
+
   /// `model` is the one that holds this. The places lie at least `distance` (mm) from their samples along their faces,
   /// and where its distance field ends.
   std::shared_ptr<const PartPatches> of(const TrainedModel& model, double distance, int threads) const;
+  /// In which step along its face the places beside each sample begin, for each way; as many as there are: in none.
+  const std::vector<std::uint8_t>& steps(const TrainedModel& model, int threads = 1) const;
 
 private:
-  mutable std::mutex Making;
+  mutable std::mutex Finding, Making;
+  mutable std::vector<std::uint8_t> Found; ///< the steps
   /// By the steps that the places are farther off than the field reaches.
   mutable std::map<int, std::shared_ptr<const PartPatches>> Made;
 };

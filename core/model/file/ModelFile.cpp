@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "model/ModelFile.h"
+#include "model/file/ModelFile.h"
 
 #include "base/Error.h"
 #include "base/Frames.h"
 #include "io/parsing/FileBytes.h"
 #include "io/parsing/NamedArrays.h"
-#include "model/ModelValidation.h"
+#include "model/file/DerivedFields.h"
+#include "model/file/ModelValidation.h"
 
 #include <algorithm>
 #include <fstream>
@@ -18,12 +19,6 @@ namespace
 constexpr std::string_view Signature("\x89MEAM\r\n\x1a", 8);
 
 using Numbers = std::vector<double>;
-
-void append(Numbers& numbers, const Eigen::Isometry3d& T)
-{
-  const Eigen::Matrix<double, 4, 4, Eigen::RowMajor> rows = T.matrix();
-  numbers.insert(numbers.end(), rows.data(), rows.data() + 16);
-}
 
 Eigen::Isometry3d transformAt(const Numbers& numbers, std::size_t at) { return transformOf(numbers.data() + at); }
 
@@ -53,7 +48,7 @@ void setSymmetries(NamedArrays& arrays, const Symmetries& symmetries)
   Numbers discrete, continuous, near;
   for (const Eigen::Isometry3d& T : symmetries.discrete)
   {
-    append(discrete, T);
+    appendNumbersOf(T, discrete);
   }
   for (const ContinuousSymmetry& symmetry : symmetries.continuous)
   {
@@ -62,7 +57,7 @@ void setSymmetries(NamedArrays& arrays, const Symmetries& symmetries)
   }
   for (const NearSymmetry& symmetry : symmetries.near)
   {
-    append(near, symmetry.T);
+    appendNumbersOf(symmetry.T, near);
     near.push_back(symmetry.overlap);
     near.push_back(symmetry.deviation);
   }
@@ -201,6 +196,7 @@ NamedArrays arraysOf(const TrainedModel& model)
   setCloud(arrays, "SurfacePair", model.surfacePairPoints);
   setTable(arrays, "SurfaceTable", model.surfaceTable);
   setCalibration(arrays, model.calibration);
+  setDerived(arrays, model);
   return arrays;
 }
 
@@ -275,16 +271,26 @@ TrainedModel readModel(const std::string& path)
   {
     requireModelVersion(version);
     TrainedModel model;
+    std::optional<DerivedFields> derived;
     try
     {
-      model = modelOf(NamedArrays::unpacked(content));
+      const NamedArrays arrays = NamedArrays::unpacked(content);
+      model = modelOf(arrays);
+      derived = derivedOf(arrays);
     }
     catch (const Error& error)
     {
       refuseModel(std::string(error.what()) + ".");
     }
     requireModel(model);
-    model.deriveFields();
+    if (derived)
+    {
+      model.deriveFields(*std::move(derived));
+    }
+    else
+    {
+      model.deriveFields();
+    }
     return model;
   }
   catch (const Error& error)

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "model/ModelFile.h"
+#include "model/file/ModelFile.h"
+
+#include "model/body/BodyInterior.h"
 
 #include "TestFiles.h"
 #include "TestScene.h"
@@ -8,6 +10,9 @@
 
 namespace
 {
+meam::TriangleMesh handedPart() { return parts::blockOnPlate(false); }
+meam::TriangleMesh plainBox() { return parts::box({ 0.0f, 0.0f, 0.0f }, { 60.0f, 40.0f, 15.0f }); }
+
 /// The matrices of transforms one after the other.
 std::vector<double> numbersOf(const std::vector<Eigen::Isometry3d>& transforms)
 {
@@ -109,6 +114,56 @@ TEST(ModelFile, ComesBackBitByBit)
     meam::writeModel(path, model);
     expectSame(meam::readModel(path), model);
   }
+}
+
+TEST(ModelFile, HoldsWhatDetectionDerives)
+{
+  const files::Folder folder;
+  const std::string path = folder.path("model.meam");
+  const meam::TrainedModel& model = scenes::trained<parts::tower>();
+  meam::writeModel(path, model);
+  const meam::TrainedModel read = meam::readModel(path);
+  for (const auto field : { &meam::TrainedModel::surfaceDistance, &meam::TrainedModel::edgeDistance })
+  {
+    const meam::DistanceField::Stored stored = (model.*field).stored();
+    EXPECT_GT(stored.distances.size(), 1000u);
+    EXPECT_EQ((read.*field).stored().frame, stored.frame);
+    EXPECT_EQ((read.*field).stored().size, stored.size);
+    EXPECT_EQ((read.*field).stored().distances, stored.distances);
+    for (const Eigen::Vector3f& point : model.surface.points)
+    {
+      EXPECT_EQ((read.*field).at(point), (model.*field).at(point));
+    }
+  }
+  EXPECT_EQ(read.interior->cells(), model.interior->cells());
+  EXPECT_EQ(read.table.votes, model.table.votes);
+  EXPECT_EQ(read.verificationPoints, model.verificationPoints);
+  const std::vector<meam::SideSymmetry>& sides = model.sides->of(model);
+  ASSERT_FALSE(sides.empty());
+  ASSERT_EQ(read.sides->of(read).size(), sides.size());
+  for (std::size_t k = 0; k < sides.size(); ++k)
+  {
+    EXPECT_EQ(read.sides->of(read)[k].towards, sides[k].towards);
+    EXPECT_EQ(numbersOf(read.sides->of(read)[k].turns), numbersOf(sides[k].turns));
+  }
+}
+
+TEST(ModelFile, HoldsHowAPartIsMirrored)
+{
+  const files::Folder folder;
+  const std::string path = folder.path("model.meam");
+  const meam::TrainedModel& handed = scenes::trained<handedPart>();
+  meam::writeModel(path, handed);
+  const meam::TrainedModel read = meam::readModel(path);
+  const meam::MirroredPart* mirrored = handed.mirrorImage->of(handed);
+  ASSERT_NE(mirrored, nullptr);
+  ASSERT_NE(read.mirrorImage->of(read), nullptr);
+  EXPECT_EQ(read.mirrorImage->of(read)->model.surface.points, mirrored->model.surface.points);
+  EXPECT_EQ(numbersOf(read.mirrorImage->of(read)->turns), numbersOf(mirrored->turns));
+  const meam::TrainedModel& plain = scenes::trained<plainBox>();
+  meam::writeModel(path, plain);
+  const meam::TrainedModel readPlain = meam::readModel(path);
+  EXPECT_EQ(readPlain.mirrorImage->of(readPlain), nullptr) << "its own mirror image";
 }
 
 TEST(ModelFile, WhatIsWrongWithAFile)

@@ -8,8 +8,8 @@
 namespace meam
 {
 /// Writes a trained model as one file, NAME.meam by custom: eight bytes of signature, the format version, and arrays by
-/// name with a check sum, little-endian. What deriveFields() makes is not in it. Throws Error, naming the file, when it
-/// cannot be written; no partial file is left then.
+/// name with a check sum, little-endian. What takes long to derive from a model is among them (DerivedFields). Throws
+/// Error, naming the file, when it cannot be written; no partial file is left then.
 void writeModel(const std::string& path, const TrainedModel& model);
 
 /// Reads it back, bit by bit the same. Throws Error, naming the file and what to do, for another kind of file, another

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "model/ModelValidation.h"
+#include "model/file/ModelValidation.h"
 
 #include "base/Error.h"
 #include "base/Frames.h"
