@@ -197,8 +197,10 @@ TriangleMesh readBinarySTL(const std::string& path, const std::string& bytes, co
 TriangleMesh readSTL(const std::string& path, const Progress& progress)
 {
   const std::string bytes = readFile(path);
+  const std::string mark = bytes.substr(0, 2);
+  const std::string letters = mark == "\xff\xfe" || mark == "\xfe\xff" ? readText(path) : ""; // of UTF-16
   // Some programs begin binary files with the word, too.
-  std::string_view text = bareText(bytes);
+  std::string_view text = bareText(letters.empty() ? bytes : letters);
   text.remove_suffix(text.size() - (text.find_last_not_of('\0') + 1)); // what fills a block of a disk
   TextLines lines(text);
   const bool isText =

@@ -26,6 +26,9 @@ constexpr double OnGrid = 0.05;       // pixels that points are off their sensor
 constexpr double GridRounding = 0.01; // and so few by the rounding of their coordinates;
 constexpr double Nearer = 3.0;        // off the grid from another place they are so many times as far
 
+// What points alone do not tell, and parts that are their own mirror image would be found either way.
+constexpr const char* LeftHanded = " If their axes are left-handed, as Unity's, negate y.";
+
 std::string textOfNumber(const char* form, double value)
 {
   char text[32];
@@ -125,7 +128,7 @@ FoundView findView(const Points& scan, const std::optional<Sensor>& sensor, std:
                              std::string(isPinhole ? "a pinhole camera (" : "an orthographic camera (") +
                              textOfNumber(isPinhole ? "%.1f" : "%.3g", found->view.pixels.x()) +
                              (isPinhole ? " pixels of focal length" : " pixels a mm") + "), " +
-                             (sensor ? given : found->viewpoint.report) + ": it was found again.");
+                             (sensor ? given : found->viewpoint.report) + ": it was found again." + LeftHanded);
     return *found;
   }
   ScanViewpoint likeliest = viewpoints.front();
@@ -137,7 +140,7 @@ FoundView findView(const Points& scan, const std::optional<Sensor>& sensor, std:
   }
   appendSentence(report, "The points are not organized, and lie on no grid: they are looked at by a virtual camera, " +
                            (sensor ? given : likeliest.report) + ", with pixels that they fill." +
-                           (sensor ? "" : " Where the sensor stood elsewhere, give its viewpoint."));
+                           (sensor ? "" : " Where the sensor stood elsewhere, give its viewpoint.") + LeftHanded);
   if (better && sensor)
   {
     appendSentence(report, "From the given viewpoint many points hide others, and few from" + placeOf(*better) +

@@ -267,6 +267,16 @@ TEST(MeshFile, TextSTLInAllFormsThatAreAbout)
   {
     EXPECT_EQ(corners(read("a.stl", form)), corners(part)) << form.substr(0, 20);
   }
+  std::string low = "\xff\xfe", high = "\xfe\xff"; // UTF-16
+  for (const char letter : text)
+  {
+    low += { letter, '\0' };
+    high += { '\0', letter };
+  }
+  EXPECT_EQ(corners(read("a.stl", low)), corners(part));
+  EXPECT_EQ(corners(read("a.stl", high)), corners(part));
+  EXPECT_EQ(corners(read("a.stl", binarySTL(part).replace(0, 2, "\xff\xfe"))), corners(part))
+    << "a header of any bytes";
 }
 
 TEST(MeshFile, TextSTLWithoutItsEndIsReadWhenItIsClosed)

@@ -285,6 +285,7 @@ TEST(ScanPreparation, pointsOnNoGridAreLookedAtWithPixelsThatTheyFill)
   const meam::PreparedScan scan = prepared(points);
   EXPECT_TRUE(says(scan, "virtual camera") && says(scan, "from the origin along +z")) << scan.report;
   EXPECT_TRUE(says(scan, "give its viewpoint") && scan.isViewpointGuessed) << scan.report;
+  EXPECT_TRUE(says(scan, "If their axes are left-handed")) << scan.report;
   EXPECT_GT(measuredCount(scan.cloud), points.size() / 3);
   const meam::SceneEdges edges = edgesOf(scan);
   EXPECT_GT(edges.cloud.size(), 40u);
