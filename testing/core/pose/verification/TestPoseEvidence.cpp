@@ -27,6 +27,10 @@ meam::TriangleMesh ribbedPlate()
 /// The plate of the ribs, without one.
 meam::TriangleMesh barePlate() { return parts::box({ -20.0f, 0.0f, 0.0f }, { 20.0f, 6.0f, 25.0f }); }
 
+/// 5.6 % of its diameter.
+constexpr float TileThickness = 2.4f;
+meam::TriangleMesh tile() { return parts::box({ -15.0f, -15.0f, 0.0f }, { 15.0f, 15.0f, TileThickness }); }
+
 meam::TriangleMesh sheet() { return parts::box({ -25.0f, -15.0f, 0.0f }, { 25.0f, 15.0f, 0.6f }); }
 
 /// Of a ribbed plate taken to be where a bare one is, its upper side up.
@@ -193,6 +197,31 @@ TEST(PoseEvidence, WhatLiesBehindTheFloorCannotBeThere)
   EXPECT_GT(inTheFloor.there, 10.0 * (inTheFloor.hidden + inTheFloor.past));
   EXPECT_GT(inTheFloor.goesOn, inTheFloor.ends);
   EXPECT_GT(inTheFloor.enclosed, 0.2 * inTheFloor.there);
+}
+
+TEST(PoseEvidence, NeitherDoesAFlatPartLieInTheFloor)
+{
+  scenes::Seen seen = scenes::seenCopies();
+  const Eigen::AlignedBox3f all = meam::bounds(seen.surface);
+  const Eigen::Vector2f low = all.min().head<2>(), high = all.max().head<2>(), around(100, 100);
+  const float floor = all.min().z() - 10.0f;
+  parts::add(seen.surface, parts::lattice(low - around, high + around, 1.0f, floor));
+  const meam::Scene scene = scenes::prepared(seen);
+  ASSERT_EQ(scene.enclosure.size(), 1u);
+  const meam::EvidenceCollector ofTile(scene, scenes::trained<tile>());
+  const auto at = [&](float bottom)
+  {
+    Eigen::Isometry3d lying = Eigen::Isometry3d::Identity();
+    lying.translation() << all.max().x() + 50.0, all.center().y(), bottom;
+    return Eigen::Isometry3d(scene.T_local_scene() * lying);
+  };
+  const meam::EvidenceCounts in = ofTile.collect(at(floor - TileThickness)).counts;
+  EXPECT_GT(in.there, 10.0 * (in.hidden + in.past)) << "all that should be seen is there";
+  // Below seven tenths of it lie a face of 900 mm^2 and 86 mm^2 of its sides; a body shows a quarter of them.
+  EXPECT_NEAR(in.enclosed / in.there, 0.25 * 986.0 / 900.0, 0.04);
+  EXPECT_EQ(ofTile.collect(at(floor)).counts.enclosed, 0.0);
+  // What lies on the floor may be taken for it where it is as thin as the floor is measured.
+  EXPECT_EQ(meam::EvidenceCollector(scene, scenes::trained<sheet>()).collect(at(floor - 0.6f)).counts.enclosed, 0.0);
 }
 
 TEST(PoseEvidence, OutlineUnderTheFloorDoesNotEnd)
