@@ -27,6 +27,8 @@ constexpr double TurnDistance = 0.04; // of the diameter: correspondences of ano
 constexpr double SureAdvantage = 13.0; // points that make a rotation e times likelier than another in simulated bins
 constexpr double Hopeless = -6.0 * SureAdvantage; // a rotation so unlikely is one in four hundred
 constexpr double WorthAsking = 0.02; // probability of a pose before: less, and only its near-symmetries are compared
+constexpr double MuchEvidence = 1.5; // log odds between rotations, more of which grows by its logarithm: outline where
+                                     // the part stands on something is of one line, and counts for all of it
 constexpr float FromThatSide = 0.5f; // cosine between the line of sight and the one from where a side looks the same
 constexpr int Rounds = 3;            // of rotations that the scene speaks for more
 constexpr double LeastShare = 0.01;  // of a rotation that is told of
@@ -343,7 +345,9 @@ void LocalSearch::addEvidence(std::vector<RotationAlternative>& rotations, doubl
   {
     other->share =
       other->share > least
-        ? other->share + SureAdvantage * (this->Collector.logOdds(other->T_scene_model, this->Rates) - logOdds)
+        ? other->share +
+            SureAdvantage *
+              logSaturated(this->Collector.logOdds(other->T_scene_model, this->Rates) - logOdds, MuchEvidence)
         : -std::numeric_limits<double>::infinity();
   }
 }
