@@ -682,7 +682,7 @@ def symmetry_conclusion(samples):
         f"The same after {len(exact)} rotation{'s' * (len(exact) > 1)}: one of these poses stands for all."] if exact else []
     if near:
         _, overlap, off = near[0]
-        alike = [round(angle) for angle, share, _ in near if share > overlap - AS_GOOD]
+        alike = [max(1, round(angle)) for angle, share, _ in near if share > overlap - AS_GOOD]
         step = min(alike)
         regular = 360 % step == 0 and all(angle % step == 0 for angle in alike)
         often = "after half a turn" if step == 180 else f"every {step} degrees"

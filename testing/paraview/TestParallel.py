@@ -22,7 +22,7 @@ view = simple.GetActiveViewOrCreate("RenderView")
 for source, port in ((scene, 0), (found, 0), (found, 2)):
     simple.Show(simple.OutputPort(source, port), view)
 simple.Render(view)
-MODEL = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "fuzz", "corpus", "model", "small.meam")
+MODEL = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "fuzz", "corpus", "model", "derived.meam")
 grasps = simple.GraspDefinition(Input=plate)
 
 
