@@ -40,11 +40,6 @@ void takeNearer(const Row& row, int count, float first, float cell, float beside
 }
 }
 
-BodyInterior::BodyInterior(const PointCloud& surface, double diameter, double depth)
-  : BodyInterior(surface, diameter, depth, {})
-{
-}
-
 BodyInterior::BodyInterior(const PointCloud& surface, double diameter, double depth, std::vector<std::uint8_t> cells)
   : Surface(surface)
   , Samples(surface.points, MostLooked * diameter)

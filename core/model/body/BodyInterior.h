@@ -13,10 +13,9 @@ namespace meam
 class BodyInterior
 {
 public:
-  /// `surface`: samples of the part with normals. `depth`: mm, from which on a point is deep.
-  BodyInterior(const PointCloud& surface, double diameter, double depth);
-  /// With the cells of another of the same part, which are made anew where there are not as many.
-  BodyInterior(const PointCloud& surface, double diameter, double depth, std::vector<std::uint8_t> cells);
+  /// `surface`: samples of the part with normals. `depth`: mm, from which on a point is deep. `cells`: of another of
+  /// the same part; they are made anew where there are not as many.
+  BodyInterior(const PointCloud& surface, double diameter, double depth, std::vector<std::uint8_t> cells = {});
 
   /// Whether a point of the part's frame is deeper in the part.
   bool isDeep(const Eigen::Vector3f& point) const;

@@ -49,8 +49,12 @@ DistanceField fieldOf(const NamedArrays& arrays, const std::string& name)
 std::vector<Eigen::Isometry3d> motionsOf(const NamedArrays& arrays, const std::string& name)
 {
   const std::vector<double> numbers = arrays.get<double>(name);
+  if (numbers.size() % Matrix != 0)
+  {
+    refuse("turns end within one");
+  }
   std::vector<Eigen::Isometry3d> motions;
-  for (std::size_t at = 0; at + Matrix <= numbers.size(); at += Matrix)
+  for (std::size_t at = 0; at < numbers.size(); at += Matrix)
   {
     motions.push_back(transformOf(numbers.data() + at));
     if (!isRigid(motions.back().matrix()))
@@ -116,18 +120,20 @@ std::vector<SideSymmetry> sidesOf(const NamedArrays& arrays)
   const std::vector<std::int32_t> counts = arrays.get<std::int32_t>("SideTurnCounts");
   const std::vector<Eigen::Isometry3d> turns = motionsOf(arrays, "SideTurns");
   std::vector<SideSymmetry> sides;
-  std::size_t taken = 0;
-  for (std::size_t k = 0; k < directions.size() && k < counts.size(); ++k)
+  auto begin = turns.begin();
+  for (std::size_t k = 0; k < std::min(directions.size(), counts.size()); ++k)
   {
     requireUnit(directions[k]);
-    const auto count = static_cast<std::size_t>(std::max(counts[k], 0));
-    const auto begin = turns.begin() + static_cast<std::ptrdiff_t>(taken);
-    if (count > turns.size() - taken)
+    if (counts[k] < 0 || counts[k] > turns.end() - begin)
     {
       refuse("sides have other numbers of turns");
     }
-    sides.push_back({ directions[k], { begin, begin + static_cast<std::ptrdiff_t>(count) } });
-    taken += count;
+    sides.push_back({ directions[k], { begin, begin + counts[k] } });
+    begin += counts[k];
+  }
+  if (directions.size() != counts.size() || begin != turns.end())
+  {
+    refuse("sides are not as many as their turns say");
   }
   return sides;
 }

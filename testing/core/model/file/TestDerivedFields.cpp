@@ -60,5 +60,8 @@ TEST(DerivedFields, WhatIsNotSoundIsDamaged)
   expectDamaged([](Arrays& arrays) { arrays.set("MirrorPlane", meam::Points(2, Eigen::Vector3f(2, 0, 0))); });
   expectDamaged([](Arrays& arrays) { arrays.set("MirrorTurns", std::vector<double>(16, 1.0)); });
   expectDamaged([](Arrays& arrays) { arrays.set("SideDirections", meam::Points(1, Eigen::Vector3f(2, 0, 0))); });
+  expectDamaged([](Arrays& arrays) { arrays.set("MirrorTurns", std::vector<double>(17, 1.0)); });
   expectDamaged([](Arrays& arrays) { arrays.set("SideTurnCounts", std::vector<std::int32_t>(20, 1000)); });
+  expectDamaged([](Arrays& arrays) { arrays.set("SideTurnCounts", std::vector<std::int32_t>(1, -1)); });
+  expectDamaged([](Arrays& arrays) { arrays.set("SideTurnCounts", std::vector<std::int32_t>()); });
 }

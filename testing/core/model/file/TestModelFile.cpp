@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "model/file/ModelFile.h"
 
+#include "base/Frames.h"
 #include "model/body/BodyInterior.h"
 
 #include "TestFiles.h"
@@ -19,7 +20,7 @@ std::vector<double> numbersOf(const std::vector<Eigen::Isometry3d>& transforms)
   std::vector<double> numbers;
   for (const auto& T : transforms)
   {
-    numbers.insert(numbers.end(), T.data(), T.data() + 16);
+    meam::appendNumbersOf(T, numbers);
   }
   return numbers;
 }
