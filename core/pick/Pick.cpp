@@ -22,23 +22,22 @@ struct Words
 constexpr int Obstructions = static_cast<int>(PickObstruction::Measured) + 1;
 constexpr std::array<Words, Obstructions> AllWords{ {
   { "possible", "pick #", "", "" },
-  { "the pose is too uncertain", "uncertain", "too uncertain", "lower the minimum probability, or scan again" },
-  { "covered from above to # %", "# % covered", "covered",
-    "pick what lies on them first, or raise the maximum covered" },
+  { "the pose is too uncertain", "uncertain", "too uncertain", "lower MinimumProbability, or scan again" },
+  { "covered from above to # %", "# % covered", "covered", "pick what lies on them first, or raise MaximumCovered" },
   { "the grasp is for another kind of gripper", "wrong kind", "without a grasp for this kind of gripper",
     "choose the other kind, or have grasps proposed for this one" },
   { "the part is too wide there for the jaws", "too wide", "too wide for the jaws",
     "take a gripper with a larger opening, or other grasps" },
   { "tilted by # degrees", "tilted", "without a grasp from above",
-    "raise the maximum tilt, have more grasps proposed or define one by hand, or take another gripper" },
+    "raise MaximumTilt, have more grasps proposed or define one by hand, or take another gripper" },
   { "collides with the part itself", "hits the part", "hit by the gripper on its way in",
     "take a slimmer gripper, or have more grasps proposed" },
   { "collides with the bin", "hits the bin", "too near to the bin",
-    "take a slimmer or longer gripper, or lower the safety margin" },
+    "take a slimmer or longer gripper, or lower SafetyMargin" },
   { "collides with instance #", "hits #", "too near to another copy",
-    "pick the other copies first, take a slimmer gripper, or lower the safety margin" },
+    "pick the other copies first, take a slimmer gripper, or lower SafetyMargin" },
   { "collides with something measured", "hits something", "too near to something measured",
-    "clear it away, take a slimmer gripper, or lower the safety margin" },
+    "clear it away, take a slimmer gripper, or lower SafetyMargin" },
 } };
 
 const Words& wordsOf(PickObstruction obstruction) { return AllWords[static_cast<std::size_t>(obstruction)]; }

@@ -102,6 +102,7 @@ Poses findPoses(const Scene& scene, const TrainedModel& model, const DetectionSe
     });
   const Poses poses = search.select(selectionOf(settings), subProgress(progress, Searches, 1.0));
   told.isCutShort = told.isCutShort || settings.deadline.hasStruck();
+  told.maximumPoses = settings.selection.maximumPoses;
   return poses;
 }
 

@@ -72,6 +72,7 @@ struct DetectionReport
   WorkCounts work;
   std::optional<EvidenceRates> rates; ///< of the scan, by the candidates; none with the paper's verification
   bool isCutShort = false;            ///< by the deadline
+  int maximumPoses = 0;               ///< that were asked for; 0: all
 };
 
 /// What a sensor says of a bin.

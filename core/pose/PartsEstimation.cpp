@@ -158,7 +158,7 @@ private:
         return PartDetections{ *this->Scenes[part], *this->Models[part], this->Found[part] };
       });
     ConflictResolutionSettings conflicts;
-    conflicts.maximumPoses = this->Settings.selection.maximumPoses;
+    conflicts.maximumPoses = this->Told.maximumPoses = this->Settings.selection.maximumPoses;
     conflicts.threads = this->Settings.selection.threads;
     std::vector<PartPose> stay =
       resolveConflicts(detections, conflicts, subProgress(progress, shareOf(count, count + 1), 1.0));

@@ -118,6 +118,11 @@ std::string scanAdvice(const ScanQuality& quality, const DetectionReport& report
   {
     sentences.push_back(adviceOnNothing(report.work));
   }
+  if (!poses.empty() && there == report.maximumPoses)
+  {
+    sentences.push_back(
+      "No more than " + std::to_string(there) + " were asked for: there may be more (MaximumNumberOfPoses, 0: all).");
+  }
   sentences.resize(std::min(sentences.size(), MostSentences));
   std::string advice;
   for (const std::string& sentence : sentences)

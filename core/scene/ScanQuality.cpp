@@ -212,7 +212,7 @@ std::string describe(const ScanQuality& quality)
     text += "; depth in steps of " + number(quality.depthStep, 3) + " mm";
   }
   return text + "; depth at " + number(100.0 * quality.coverage, 0) + " % of the points; at depth jumps " +
-         number(quality.jumpGap, 1) + " points without depth, and a point that hangs between in " +
-         number(100.0 * quality.flying, 0) + " %.";
+         number(quality.jumpGap, 1) + " points without depth, and in " + number(100.0 * quality.flying, 0) +
+         " % of them a stray point between.";
 }
 }

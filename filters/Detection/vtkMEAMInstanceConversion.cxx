@@ -47,7 +47,7 @@ constexpr unsigned char RankColors[][3] = {
 };
 constexpr int LastColor = static_cast<int>(std::size(RankColors));
 
-constexpr double Sure = 0.995; // of a rotation that rounds to 100 %
+constexpr double Sure = 0.95; // of a rotation: it needs no word
 
 bool isDrawn(const meam::Pose& pose, double minimumProbability)
 {

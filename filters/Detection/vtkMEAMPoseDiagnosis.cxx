@@ -31,7 +31,8 @@ vtkStandardNewMacro(vtkMEAMPoseDiagnosis);
 
 namespace
 {
-const char* const StateNames[] = { "matched", "turned", "hidden", "not measured", "violated" };
+const char* const StateNames[] = { "explained", "turned", "hidden", "not measured", "seen past" };
+const char* const MissingName = "missing"; // of an edge point that the sensor did not see past, but no edge
 
 /// As the array `Residual` has them: those of states, of edge points of which there is no edge, and of the scan beside
 /// the part.
@@ -96,12 +97,13 @@ void fromEvidence(const meam::Diagnosis& diagnosis, vtkPolyData* output)
   setVertices(points, output);
   vtkPointData* arrays = output->GetPointData();
   arrays->AddArray(columnOf<vtkIntArray>("State", states, &State::id));
-  arrays->AddArray(
-    columnOf<vtkStringArray>("StateName", states, [](const State& state) { return StateNames[state.id]; }));
+  const auto isMissing = [](const State& state)
+  { return state.isEdge && state.id == stateId(meam::PointState::Violated); };
+  arrays->AddArray(columnOf<vtkStringArray>(
+    "StateName", states, [&](const State& state) { return isMissing(state) ? MissingName : StateNames[state.id]; }));
   arrays->AddArray(columnOf<vtkIntArray>("IsEdge", states, &State::isEdge));
-  const int violated = stateId(meam::PointState::Violated);
-  arrays->AddArray(columnOf<vtkIntArray>("Residual", states,
-    [violated](const State& state) { return state.isEdge && state.id == violated ? Missing : state.id; }));
+  arrays->AddArray(columnOf<vtkIntArray>(
+    "Residual", states, [&](const State& state) { return isMissing(state) ? Missing : state.id; }));
   arrays->SetActiveScalars("Residual");
 }
 
@@ -270,13 +272,16 @@ int vtkMEAMPoseDiagnosis::RequestData(
       const std::string verdict = meam::verdictOf(diagnosis, detection.work.settings);
       const std::string advice = meam::adviceOf(diagnosis, detection.work.settings);
       setFieldText(output, "Verdict", verdict);
+      const std::string mainReason = meam::mainReasonOf(diagnosis);
+      setFieldText(output, "MainReason", mainReason);
       setFieldText(output, "Advice", advice);
-      std::vector<std::string> paragraphs{ meam::aboutWords(answered, detection.work.names), verdict, advice };
+      std::vector<std::string> paragraphs{ meam::aboutWords(answered, detection.work.names), verdict, mainReason,
+        advice };
       std::string reasons;
       for (const std::string& reason : meam::reasonsOf(diagnosis))
       {
         reasons += (reasons.empty() ? "" : "\n") + reason;
-        paragraphs.push_back(reason);
+        paragraphs.push_back(this->More ? reason : "");
       }
       setFieldText(output, "Reasons", reasons);
       fromAnswer(paragraphs, answer);
@@ -313,4 +318,5 @@ void vtkMEAMPoseDiagnosis::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "RankOfPose: " << this->RankOfPose << "\n";
   os << indent << "PartId: " << this->PartId << "\n";
   os << indent << "Fit: " << this->Fit << "\n";
+  os << indent << "More: " << this->More << "\n";
 }

@@ -16,17 +16,18 @@
  * one part on port 0 it is told as of poses that came out of nowhere.
  *
  * Output port 0: vtkPolyData, the points of the part that should be visible at the place, in the scene's coordinates,
- * with the point arrays `State` (0 matched; 1 turned, a surface that faces elsewhere; 2 hidden, something lies in front
- * of it; 3 not measured, or lost beside a step of the part; 4 violated, the sensor saw past it, or of an edge point
- * there is no edge), `StateName` (the same as a text), `IsEdge` (1 of an edge point) and `Residual` (active scalars:
- * the same as `State`, but for 5 of an edge point that is missing in the scan). Field data: `Verdict` (a
- * sentence), `Advice` (what to change; may be empty), `Reasons` (what speaks for the place and against it, lines),
- * `LostIn` (the stage; empty: it was found), `Rank` (of the pose that came out there; 0: none), `Transform` (16, the
- * place; not there when no pose lies at the point), and of several types `PartId`, that it is about. Output port 1:
- * vtkTable, the numbers of all steps: `Step`, `Quantity`, `Value`, `Of` (what the value is out of, or is compared with;
- * NaN: nothing). Output port 2: the part at the place, as vtkMEAMPoseInstances has it. Output port 3: vtkTable with one
- * row, `Text`: verdict, advice and reasons in lines, to show in a view. Output port 4: vtkPolyData, measured surface
- * that goes on from the part at the place and is not explained by it, with `Residual` (6).
+ * with the point arrays `State` (0 explained; 1 turned, a surface that faces elsewhere; 2 hidden, something lies in
+ * front of it; 3 not measured, or lost beside a step of the part; 4 seen past, or of an edge point there is no edge),
+ * `StateName` (the same as a text), `IsEdge` (1 of an edge point) and `Residual` (active scalars: the same as `State`,
+ * but for 5 of an edge point that is missing in the scan). Field data: `Verdict` (a sentence), `MainReason` (what
+ * speaks most for the place and most against it; may be empty), `Advice` (what to change; may be empty), `Reasons`
+ * (what speaks for the place and against it, lines), `LostIn` (the stage; empty: it was found), `Rank` (of the pose
+ * that came out there; 0: none), `Transform` (16, the place; not there when no pose lies at the point), and of several
+ * types `PartId`, that it is about. Output port 1: vtkTable, the numbers of all steps: `Step`, `Quantity`, `Value`,
+ * `Of` (what the value is out of, or is compared with; NaN: nothing). Output port 2: the part at the place, as
+ * vtkMEAMPoseInstances has it. Output port 3: vtkTable with one row, `Text`: verdict, main reason and advice in lines,
+ * with More all reasons, to show in a view. Output port 4: vtkPolyData, measured surface that goes on from the part at
+ * the place and is not explained by it, with `Residual` (6).
  */
 #ifndef vtkMEAMPoseDiagnosis_h
 #define vtkMEAMPoseDiagnosis_h
@@ -93,6 +94,12 @@ public:
   vtkBooleanMacro(Fit, bool);
   ///@}
 
+  ///@{
+  /** The answer in the view has all that speaks for the place and against it, in numbers. Default: false. */
+  vtkMEAMMemberMacro(More, bool);
+  vtkBooleanMacro(More, bool);
+  ///@}
+
 protected:
   vtkMEAMPoseDiagnosis();
   ~vtkMEAMPoseDiagnosis() override;
@@ -113,6 +120,7 @@ private:
   int RankOfPose = 1;
   int PartId = -1;
   bool Fit = true;
+  bool More = false;
 };
 
 #endif

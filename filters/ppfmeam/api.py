@@ -203,11 +203,12 @@ def calibrate(model, judged):
 
 
 class Diagnosis:
-    """Why a part was missed at a place: `verdict` (a sentence), `advice` (what to change; may be empty), `reasons` (what speaks for
+    """Why a part was missed at a place: `verdict` (a sentence), `main_reason` (what speaks most for the place and most against it),
+    `advice` (what to change; both may be empty), `reasons` (what speaks for
     it and against it, the nearest other pose, a line each), `lost_in` (the stage; empty: it was found), `rank` (of the pose
     that came out there; 0: none), `part` (of several types the one that it is about), `pose` (4 x 4, the place, or None),
     `numbers` (of each a tuple: step, quantity, value, what it is out of or NaN), `points` (N x 3, those of the part that should
-    be visible) and `states` (of each: "matched", "turned", "hidden", "not measured" or "violated"), `unexplained` (M x 3,
+    be visible) and `states` (of each: "explained", "turned", "hidden", "not measured", "seen past", or of an edge "missing"), `unexplained` (M x 3,
     measured surface of the scan that goes on beside the part there, and is not it). `data` is the VTK data object of the
     points."""
 
@@ -216,7 +217,8 @@ class Diagnosis:
             return worded(data.GetFieldData().GetAbstractArray(name).GetValue(0))
 
         self.data = data
-        self.verdict, self.advice, self.reasons, self.lost_in = map(text, ("Verdict", "Advice", "Reasons", "LostIn"))
+        self.verdict, self.main_reason, self.advice, self.reasons, self.lost_in = map(
+            text, ("Verdict", "MainReason", "Advice", "Reasons", "LostIn"))
         self.rank = int(scripting.field(data, "Rank"))
         self.part = int(scripting.field(data, "PartId")) if data.GetFieldData().HasArray("PartId") else 0
         place = data.GetFieldData().GetArray("Transform")
@@ -228,7 +230,7 @@ class Diagnosis:
         self.states = scripting.texts(data, "StateName")
 
     def __repr__(self):
-        return f"{self.verdict} {self.advice}".rstrip()
+        return " ".join(filter(None, (self.verdict, self.main_reason, self.advice)))
 
 
 @takes(settings="train", reading="read")

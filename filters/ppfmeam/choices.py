@@ -80,7 +80,7 @@ is_command = False  # scripting.run() is one: texts name its options
 def worded(text):
     """A text of the library, which names properties of the filters, with the names of Python's arguments or of a command's options
     in their place."""
-    for name, choice in TABLE["detect"].items():
+    for name, choice in (*TABLE["detect"].items(), *TABLE["plan"].items()):
         name = choice.get("option") if is_command else name
         if name and choice["type"] == "choice":
             for word, value in choice["values"].items():

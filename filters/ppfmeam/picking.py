@@ -6,7 +6,7 @@ import numpy
 
 from . import Error, _core, inputs, scripting
 from .api import Detections, Model, Rows
-from .choices import TABLE, Chosen, checked, checked_scale, takes
+from .choices import TABLE, Chosen, checked, checked_scale, takes, worded
 
 PROPOSED = {"parallel": ("parallel",), "suction": ("suction",), "both": ("parallel", "suction"), "off": ()}
 GRIPPERS = {"jaws": "parallel", "cup": "suction"}
@@ -49,7 +49,7 @@ class Picks(Rows):
 
     def __init__(self, plan, has_robot):
         super().__init__(plan.picks)
-        self.report, self.advice, self.bin, self.seconds = plan.report, plan.advice, plan.bin, plan.seconds
+        self.report, self.advice, self.bin, self.seconds = plan.report, worded(plan.advice), plan.bin, plan.seconds
         self.robot_transforms = None
         if has_robot:
             self.robot_transforms = numpy.array([pick.robot_transform for pick in self]).reshape(-1, 4, 4)

@@ -13,7 +13,7 @@ import warnings
 
 import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkLogger, vtkOutputWindow, vtkPoints, vtkStringOutputWindow
+from vtkmodules.vtkCommonCore import vtkLogger, vtkMath, vtkOutputWindow, vtkPoints, vtkStringOutputWindow
 from vtkmodules.vtkCommonDataModel import vtkImageData, vtkPolyData
 from vtkmodules.vtkCommonTransforms import vtkTransform
 from vtkmodules.vtkFiltersCore import vtkThreshold
@@ -212,7 +212,7 @@ class Parser(argparse.ArgumentParser):
     """That of a command."""
 
     def __init__(self, *arguments, **options):
-        super().__init__(*arguments, **options)
+        super().__init__(*arguments, allow_abbrev=False, **options)
         for action in (None, "store"):
             self.register("action", action, Once)
 
@@ -679,16 +679,23 @@ def symmetry_conclusion(samples):
     if len(axes) > 1:
         return "A ball: any rotation is as good as another."
     said = ["Round: any rotation about its axis is as good as another."] if axes else [
-        f"The same after {len(exact)} rotation{'s' * (len(exact) > 1)}: one of these poses stands for all."] if exact else []
+        f"The same in {len(exact) + 1} rotations: one pose stands for all of them."] if exact else []
     if near:
         _, overlap, off = near[0]
         alike = [max(1, round(angle)) for angle, share, _ in near if share > overlap - AS_GOOD]
         step = min(alike)
         regular = 360 % step == 0 and all(angle % step == 0 for angle in alike)
         often = "after half a turn" if step == 180 else f"every {step} degrees"
-        said.append(f"{f'Nearly the same {often}' if regular else 'Nearly round'}: its rotation is told by {100 * (1 - overlap):.0f} % "
-                    f"of its surface, {off}; where that is hidden it is unsure.")
+        said.append(f"{f'Nearly the same {often}' if regular else 'Nearly round'}: {100 * (1 - overlap):.0f} % of its surface "
+                    f"differs, by {off.removesuffix(' off')}. Where that is hidden, the rotation is unsure.")
     return " ".join(said) or "No rotation of the whole part looks like another; where a plain side shows alone, one may."
+
+
+def quaternion_of(transform):
+    """x y z w of its rotation, w at least 0."""
+    w_first = numpy.zeros(4)
+    vtkMath.Matrix3x3ToQuaternion(transform[:3, :3].tolist(), w_first)
+    return numpy.roll(w_first if w_first[0] >= 0 else -w_first, -1)
 
 
 def print_poses(poses):

@@ -15,9 +15,10 @@ measures one again and writes this page from the files. Each was measured at the
 EPYC, which may have had other work.
 
 - *strict*: right poses of those asked for, five a scene, each copy once; a missing pose is wrong. Right is within 10 % of D and 5
-degrees. *first*: scenes whose first pose is right. - *recall*, *AP*: of copies at least half visible, by all poses; *R@99*:
-recall by the likeliest poses, as long as 99 % of them are right; *AR*, *AP2-20*: the BOP benchmark's, of copies at least a tenth
-visible. - *mm*, *degrees*: median errors of the right poses. *ms*: medians, without training.
+  degrees. *first*: scenes whose first pose is right.
+- *recall*, *AP*: of copies at least half visible, by all poses. *R@99*: recall by the likeliest poses, as long as 99 % of them are
+  right. *AR*, *AP2-20*: the BOP benchmark's, of copies at least a tenth visible.
+- *mm*, *degrees*: median errors of the right poses. *ms*: medians, without training.
 """
 FIGURES = {"strict": ("strict", 0, " %"), "top1": ("first", 0, " %"), "recall": ("recall", 1, " %"),
            "recall_99": ("R@99", 1, " %"),

@@ -62,8 +62,8 @@ check(all(s >= 0 for s in parts) and 0.97 * parts[-1] <= sum(parts[:-1]) <= part
       f"the stages add up to the total: {parts}")
 check(field(poses, "Diameter") == field(truth, "Diameter"), "the diameter travels along")
 report = text(poses, "Report")
-check(report == "2 of 2 poses are more likely there than not. This scan does not tell how long the parts are along z: "
-                "a part that differs in that alone looks the same.", f"in words: {report}")
+check(report == "2 of 2 poses are more likely there than not. How long the parts are along z cannot be checked in "
+                "this scan: a longer or shorter part looks the same.", f"in words: {report}")
 numbered = type(scan)()
 numbered.ShallowCopy(scan)
 of = run(estimation(part, set_fields(numbered, SceneId=3, ImageId=7), MaximumNumberOfPoses=1))
@@ -82,10 +82,11 @@ copies = filter.GetOutputDataObject(2)
 check(copies.GetNumberOfPolys() == 2 * part.GetNumberOfPolys(), "the third output has the part at each pose")
 check([r for r, in tuples(copies, "Rank")[::part.GetNumberOfPoints()]] == [1, 2], "in the order of the poses")
 labels = [poses.GetPointData().GetAbstractArray("Label").GetValue(i) for i in range(2)]
-sure = [f", rotation {round(100 * c)} %" if c < 0.995 else "" for c, in tuples(poses, "Certainty")]
+sure = [f", rotation {round(100 * c)} %" if c < 0.95 else "" for c, in tuples(poses, "Certainty")]
 check(labels == [f"{i + 1}: {round(100 * p)} %{sure[i]}" for i, (p,) in enumerate(tuples(poses, "PlaceProbability"))],
       f"labels {labels}")
-check(answer(filter) == answer(estimation(part, scan, MaximumNumberOfPoses=0, ShownProbability=0.0)) == "", answer(filter))
+check(answer(filter).startswith("No more than 2 were asked for: ") and
+      answer(estimation(part, scan, MaximumNumberOfPoses=0, ShownProbability=0.0)) == "", answer(filter))
 scores, stages = filter.GetOutputDataObject(3), filter.GetOutputDataObject(4)
 check([scores.GetValueByName(i, "Pose").ToString() for i in range(scores.GetNumberOfRows())] == ["1", "2"], "rows of poses")
 check(scores.GetValueByName(1, "Probability").ToDouble() == tuples(poses, "Probability")[1][0], "probabilities to plot")

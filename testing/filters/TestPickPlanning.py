@@ -58,7 +58,7 @@ planning.SetMaximumTilt(0)
 planning.SetInputDataObject(2, cloud([(0, 0, 0)], Transform=[(1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1)], Width=[20]))
 slanted = run(planning)
 check("2 without a grasp from above" in text(slanted, "PickReport"), text(slanted, "PickReport"))
-check("raise the maximum tilt" in text(slanted, "PickAdvice"), text(slanted, "PickAdvice"))
+check("raise MaximumTilt" in text(slanted, "PickAdvice"), text(slanted, "PickAdvice"))
 planning.SetMaximumTilt(60)
 planning.SetInputDataObject(2, above)
 

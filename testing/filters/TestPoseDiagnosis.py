@@ -69,13 +69,19 @@ best = ranks.index(1)
 diagnosis.SetRankOfPose(best + 1)
 output = run(diagnosis)
 states = [int(s) for (s,) in tuples(output, "State")]
-NAMES = ("matched", "turned", "hidden", "not measured", "violated")
-check(texts(output, "StateName") == [NAMES[s] for s in states], "the names of states")
+NAMES = ("explained", "turned", "hidden", "not measured", "seen past", "missing")
 check(states.count(0) > 0.6 * len(states), f"of what was found most matches: {states.count(0)} of {len(states)}")
 isEdge = [int(e) for (e,) in tuples(output, "IsEdge")]
 check(set(isEdge) == {0, 1}, "surface and edges")
 residual = [int(r) for (r,) in tuples(output, "Residual")]
 check(residual == [5 if s == 4 and e else s for s, e in zip(states, isEdge)] and 5 in residual, "edge points that are missing")
+check(texts(output, "StateName") == [NAMES[r] for r in residual], "the names of states")
+answers = []
+for more in (True, False):
+    diagnosis.SetMore(more)
+    run(diagnosis)
+    answers.append(diagnosis.GetOutputDataObject(3).GetValueByName(0, "Text").ToString())
+check("logarithm" in answers[0] and "logarithm" not in answers[1] and all("Most for it: " in answer for answer in answers), f"{answers}")
 middle = [transforms[best][i] for i in (3, 7, 11)]
 check(all(math.dist(p, middle) < field(output, "Diameter")[0][0] for p in points(output)), "the points are those of the part")
 table = diagnosis.GetOutputDataObject(1)
@@ -128,7 +134,7 @@ beyond = max(points(output), key=lambda p: sum((p[k] - place[4 * k + 3]) * place
 asked.SetPlaceToPoint()
 asked.SetPosition(beyond)
 for told in (output, run(asked)):
-    check(text(told, "Verdict").startswith("Found as rank 7, 97 %, 0.0 mm") and text(told, "LostIn") == "", text(told, "Verdict"))
+    check(text(told, "Verdict").startswith("Found as rank 7, 97 %.") and text(told, "LostIn") == "", text(told, "Verdict"))
     check("If it is wrong: " in text(told, "Advice") and text(told, "Reasons").startswith("For it, "), text(told, "Advice"))
     check(distance(tuples_of(told), shifted) < 0.1, "it is told of another pose")
 

@@ -96,7 +96,10 @@ try:
     driver.find_element(By.CSS_SELECTOR, 'tr.pose[data-rank="2"]').click()
     check(chosen(driver) == [["2"], ["2"]], f"a row selects: {chosen(driver)}")
     check((pixels_of(space) != turned).any(axis=1).mean() > 0.005, "the selected part is seen in 3D")
-    check("For it, in the logarithm" in driver.find_element(By.ID, "detail").text, "why")
+    why = driver.find_element(By.ID, "detail")
+    check("Most for it: " in why.text and "logarithm" not in why.text, f"why, in short: {why.text}")
+    why.find_element(By.TAG_NAME, "summary").click()
+    check("For it, in the logarithm" in why.text, "why, in numbers")
     driver.execute_script("document.querySelector('path[data-rank=\"1\"]').dispatchEvent(new MouseEvent('click'))")
     check(chosen(driver) == [["1"], ["1"]], f"an outline selects: {chosen(driver)}")
 

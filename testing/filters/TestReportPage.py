@@ -69,7 +69,7 @@ check(len(re.findall('<tr data-rank', text)) == len(re.findall('<path data-rank'
 for word in ("plate in scan.pcd", "ppfmeam detect --cad plate.stl", "detection", "poses</td>"):
     check(word in text, f"the page has {word}")
 check(data["why"] == "ppfmeam why plate.stl scan.pcd --poses 0 --at {x} {y} {z}", data["why"])
-check(all("For it, in" in pose["why"] and "\nAgainst it: " in pose["why"] for pose in data["poses"]), data["poses"][0]["why"])
+check(all(re.match(r"Most for it: .*\n\nFor it, in .*\nAgainst it: ", pose["why"], re.DOTALL) for pose in data["poses"]), data["poses"][0]["why"])
 
 # An outline is where the part is: around the pixels of its surface's points, no farther than they.
 rows, columns = numpy.nonzero(numpy.isfinite(points.reshape(H, W, 3)).all(axis=2))
@@ -165,7 +165,7 @@ data = data_of(read("why.html"))
 states = numpy.frombuffer(base64.b64decode(data["marks"]["states"]), numpy.uint8)
 told = ppfmeam.why("plate.meam", "scan.pcd", pose=poses.reshape(-1, 4, 4)[0], fit=True, poses=0)
 check(len(states) == len(told.points) + len(told.unexplained), f"{len(states)} points, {len(told.unexplained)} of the scan beside it")
-check(data["legend"][0] == [f"matched: {(states == 0).sum()}", CYAN] and (states == 0).mean() > 0.5 and data["chosen"] == 1 and
+check(data["legend"][0] == [f"explained: {(states == 0).sum()}", CYAN] and (states == 0).mean() > 0.5 and data["chosen"] == 1 and
       len(points_of(data["marks"])) == len(states) > 50, f"the points and their states: {data['legend']}")
 check("Found as rank 1" in read("why.html") and "Numbers of the steps" in read("why.html"), "the answer and the numbers")
 works("why.py", "plate.meam", "scan.pcd", "--at", "0", "0", "5", "--report", "nowhere.html")

@@ -62,7 +62,7 @@ for k, part in enumerate(parts):
 # So a page says it of each.
 said = reasons(found, meshes, (scan, None, None), lambda filter: filter.SetMaximumNumberOfPoses(0))
 check(len(set(rank_colors(found))) == len(parts[:10]) + (len(parts) > 10), f"a color for each rank: {rank_colors(found)}")
-check(len(said) == len(parts) and all(text.startswith("For it, in the logarithm of the odds: ") for text in said), said)
+check(len(said) == len(parts) and all(text.startswith("Most for it: ") for text in said), said)
 
 # Where none came out: of the type that is there, by a search for both; or of the one that is chosen.
 for part in (0, 1):

@@ -25,10 +25,14 @@ check(found >= 2 and lines[-1].startswith(f"{found} of"), f"{lines}")
 row = stages.index("found")
 arguments = ("why.py", "part.meam", "scan.pcd", "--pose", f"truth.txt:{row + 1}", "--poses", "0")
 brief, report = works(*arguments, "--json", "why.json"), works(*arguments, "--more").splitlines()
-check(brief.startswith("Found as rank ") and brief.count("\n") == 1 and report[0] + "\n" == brief, f"the answer comes first: {brief}")
+check(brief.startswith("Found as rank ") and "Most for it: " in brief and brief.count("\n") == 1 and report[0] + "\n" == brief,
+      f"the answer comes first: {brief}")
+by_rank = works("why.py", "part.meam", "scan.pcd", "--rank", "1", "--poses", "0")
+check(by_rank.startswith("Found as rank 1, ") and "Most for it: " in by_rank, f"of a pose that came out: {by_rank}")
+refuses("there is no pose of rank 99", "why.py", "part.meam", "scan.pcd", "--rank", "99")
 check(report[1].startswith("For it, ") and any(line.startswith("voting ") for line in report), f"{report}")
 written = json.loads(read("why.json"))
-check(f"{written['verdict']} {written['advice']}".strip() + "\n" == brief and len(written["numbers"]) > 10 and written["lost_in"] == "",
+check(" ".join(filter(None, (written[name] for name in ("verdict", "main_reason", "advice")))) + "\n" == brief and len(written["numbers"]) > 10 and written["lost_in"] == "",
       f"{written}")
 few = works("why.py", "part.meam", "scan.pcd", "--truth", "truth.txt", "--poses", "1")
 check(few.count("only the best 1 are wanted. Raise --poses to ") >= found - 1, few)
@@ -40,14 +44,14 @@ check(diagnosis.rank >= 1 and diagnosis.lost_in == "" and diagnosis.verdict.star
 check(diagnosis.reasons.startswith("For it, in the logarithm of the odds: ") and "\nAgainst it: " in diagnosis.reasons,
       diagnosis.reasons)
 check(len(diagnosis.points) == len(diagnosis.states) > 50, "points and states")
-on = diagnosis.points[diagnosis.states.index("matched")]
+on = diagnosis.points[diagnosis.states.index("explained")]
 report = works("why.py", "part.meam", "--at", *map(str, on), "--poses", "0", "scan.pcd").splitlines()
 check(report[0].startswith(f"Found as rank {diagnosis.rank},"), f"{report}")
 # Of Detections: of the pose that came out, by its rank and by a point on it; the surface that goes on beside a pose that is shifted.
 detections = ppfmeam.detect(model, "scan.pcd", poses=2)
 for k in range(2):
     told = detections.why(rank=k + 1)
-    again = detections.why(at=told.points[told.states.index("matched")])
+    again = detections.why(at=told.points[told.states.index("explained")])
     check(all(each.rank == k + 1 and numpy.allclose(each.pose, detections.poses[k], atol=1e-6) for each in (told, again)),
           f"{k + 1}: {told.verdict} {again.verdict}")
 for arguments in ({}, {"rank": 1, "at": on}, {"rank": 3}):

@@ -30,7 +30,7 @@ def wrong(folder):
             new_part_file("CAD", f"{folder}/scan.pcd"), *answer(f"The mesh file '{folder}/scan.pcd' has an extension that is not known: give a .step, .iges, .stl, .obj, .ply or .off."),
             new_part_file("CAD", f"{folder}/cut.stl"), *answer(f"The mesh file '{folder}/cut.stl' is cut off, or is no STL file."),
             new_part_file("CAD", f"{folder}/part.stl"), new_part_file("Scan", f"{folder}/part.stl"),
-            *answer(f"{folder}/part.stl is no scan: choose a PCD, a PLY, or a depth image as PNG, TIFF, PGM or PFM.")]
+            *answer(f"{folder}/part.stl is no scan: choose a PCD, a PLY, a text of points (XYZ, CSV, TXT, ASC, PTS), or a depth image as PNG, TIFF, PGM or PFM.")]
 
 
 def solid(folder):

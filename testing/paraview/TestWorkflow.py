@@ -37,7 +37,7 @@ def points_to_ask(folder):
 
     def measured(poses):
         told = ppfmeam.why(model, scan, pose=poses, poses=0)
-        return [each.points[numpy.array(each.states) == "matched"] for each in told]
+        return [each.points[numpy.array(each.states) == "explained"] for each in told]
 
     taken = numpy.concatenate(measured(found.poses[likely]))
 

@@ -227,16 +227,16 @@ std::string verdictOf(const Diagnosis& diagnosis, const DetectionSettings& detec
   const PlaceEvidence& evidence = diagnosis.evidence;
   const std::string rank = std::to_string(std::max(diagnosis.rank, diagnosis.rankWithoutLimits));
   const std::string off = offsetWords(diagnosis.offset) + " off";
-  const std::string found = "Found as rank " + rank + ", " + percent(diagnosis.probability) + ", ";
+  const std::string found = "Found as rank " + rank + ", " + percent(diagnosis.probability);
   const auto afterwards = [&] { return "; lost in " + nameOf(*diagnosis.lostIn) + "."; };
   switch (diagnosis.cause)
   {
     case LossCause::None:
-      return found + off + ".";
+      return found + (diagnosis.isOfFound ? "." : ", " + off + " the place asked about.");
     case LossCause::Inaccurate:
-      return found + "but " + off + ".";
+      return found + ", but " + off + " the place asked about.";
     case LossCause::NotWanted:
-      return found + off + ", but only " + wantedWords(diagnosis, detection.selection) + " are wanted.";
+      return found + ", " + off + ", but only " + wantedWords(diagnosis, detection.selection) + " are wanted.";
     case LossCause::Outside:
       return "Not looked for: it lies outside of the region.";
     case LossCause::NothingShown:
@@ -317,6 +317,8 @@ std::string adviceOf(const Diagnosis& diagnosis, const DetectionSettings& detect
       return adviceOnNothing({});
     case LossCause::NoPose:
       return "Take a point of the scan that lies on the part.";
+    case LossCause::NotThere:
+      return "If there is a part, compare a length of it in the scan and in the CAD file.";
     default:
       break;
   }
@@ -324,12 +326,60 @@ std::string adviceOf(const Diagnosis& diagnosis, const DetectionSettings& detect
   {
     return "Raise ReferenceShare: with all points on the part voting it is found.";
   }
-  if (diagnosis.cause == LossCause::FewEdges)
+  switch (diagnosis.cause)
   {
-    return std::string("Light the bin from another side, with DepthEdges and Creases on") +
-           (canVoteMore ? ", or let the surface vote, too (Features: Both)." : ".");
+    case LossCause::FewEdges:
+      return std::string("Light the bin from another side, with DepthEdges and Creases on") +
+             (canVoteMore ? ", or let the surface vote, too (Features: Both)." : ".");
+    case LossCause::NoReference:
+      return "Raise ReferenceShare: more points vote.";
+    case LossCause::Outvoted:
+      return canVoteMore ? "Let edges and surface vote (Features: Both)."
+                         : "Give the sensor's image, or scan with more points on the part: its edges are few here.";
+    case LossCause::SurfaceMissing:
+      return "Scan the part with fewer holes: from another side or with another exposure. "
+             "If it has none, compare the part with the CAD file.";
+    case LossCause::Duplicate:
+    case LossCause::OtherRotation:
+      return "Scan the part from where the detail shows that tells its rotation, or with more points on it.";
+    case LossCause::LowScore:
+      return "Look at the points that are missing: measure there, or compare the part with the CAD file.";
+    case LossCause::Taken:
+      return "If that pose is wrong, ask about it. "
+             "Where several types of part lie in the bin, search for all of them together.";
+    case LossCause::NotRefined:
+      return "Search in a smaller region (Region), or for all types of part in the bin together.";
+    default: // MovedAway
+      return "Raise ReferenceShare: more candidates start near it. If that does not help, compare a length of the part "
+             "in "
+             "the scan and in the CAD file.";
   }
-  return diagnosis.cause == LossCause::Outvoted && canVoteMore ? "Let edges and surface vote (Features: Both)." : "";
+}
+
+std::string mainReasonOf(const Diagnosis& diagnosis)
+{
+  if (diagnosis.cause == LossCause::NotWanted && diagnosis.probability >= LikelyFound)
+  {
+    return ""; // the limit is the reason
+  }
+  const std::vector<EvidenceTerm>& terms = diagnosis.odds.terms;
+  const auto strongest = [&](double sign)
+  {
+    const auto adds = [sign](const EvidenceTerm& term) { return sign * term.adds; };
+    const auto most = std::max_element(
+      terms.begin(), terms.end(), [&](const EvidenceTerm& a, const EvidenceTerm& b) { return adds(a) < adds(b); });
+    return most != terms.end() && adds(*most) >= LeastTold ? std::string(most->what) : "";
+  };
+  const std::string speaksFor = strongest(1.0);
+  const std::string words = diagnosis.found ? contradictionWords(diagnosis.found->contradictions) : "";
+  const std::string against = !isDoubted(diagnosis) ? strongest(-1.0)
+                              : diagnosis.cutsInto > 0
+                                ? "its body cuts into that of rank " + std::to_string(diagnosis.cutsInto)
+                              : words.empty() ? "a part of just this shape may not be in the scan"
+                                              : words;
+  return (speaksFor.empty() ? "" : "Most for it: " + speaksFor + ".") +
+         (speaksFor.empty() || against.empty() ? "" : " ") +
+         (against.empty() ? "" : "Most against it: " + against + ".");
 }
 
 std::vector<std::string> reasonsOf(const Diagnosis& diagnosis)
@@ -356,35 +406,33 @@ std::vector<std::string> reasonsOf(const Diagnosis& diagnosis)
     add("For it, in the logarithm of the odds: " + listed(true) + ".");
     const double before = diagnosis.odds.before;
     add("Against it: " + listed(false) +
-        (before < 0.0 ? ", and that little is right of what is anywhere (" + decimal(before) + ")." : "."));
+        (before < 0.0 ? "; to begin with, that most candidates are wrong (" + decimal(before) + ")." : "."));
     const PlaceOdds& odds = diagnosis.odds;
     const double together = std::accumulate(odds.terms.begin(), odds.terms.end(), before,
       [](double sum, const EvidenceTerm& term) { return sum + term.adds; });
     const double counted = (odds.sum() - odds.shareOfSearch * odds.searched) / (1.0 - odds.shareOfSearch);
     if (together - counted >= LeastTold)
     {
-      add("Together that makes " + decimal(together) + ", which counts by its logarithm (" + decimal(counted) + ").");
+      add("Together that makes " + decimal(together) + ". So large a sum is damped, to " + decimal(counted) + ".");
     }
     if (odds.shareOfSearch >= LeastShare)
     {
-      add("This scan shows few of a part's edges. So these count by " + percent(1.0 - odds.shareOfSearch) +
-          ", and by " + percent(odds.shareOfSearch) +
-          " what it was searched for by, which counts each point by itself (" +
-          decimal(odds.searched + diagnosis.penalty) +
-          (diagnosis.penalty > 0.0 ? "; " + decimal(-diagnosis.penalty) + ", for it was moved to where that is most"
-                                   : "") +
-          ").");
+      add("This scan shows few edges of a part: " + percent(odds.shareOfSearch) +
+          " of the weight has the sum that it was searched by (" + decimal(odds.searched + diagnosis.penalty) + ")." +
+          (diagnosis.penalty > 0.0
+              ? " That sum has " + decimal(diagnosis.penalty) + " less, for the pose was moved to where it is largest."
+              : ""));
     }
   }
   const std::string words = diagnosis.found ? contradictionWords(diagnosis.found->contradictions) : "";
   if (diagnosis.continuing >= LeastTold && !(isDoubted(diagnosis) && words.find("goes on") != std::string::npos))
   {
     add("Against it, too: measured surface goes on beside it over " + decimal(diagnosis.continuing) +
-        " patches, which it leaves unexplained.");
+        " patches, unexplained.");
   }
   if (diagnosis.lessByOthers >= LeastTold)
   {
-    add("With all that the scan holds it is less likely, by " + decimal(diagnosis.lessByOthers) +
+    add("The rest of the scan makes it less likely, by " + decimal(diagnosis.lessByOthers) +
         (!isDoubted(diagnosis)     ? "."
           : !mayBeOther(diagnosis) ? ": its body cuts into that of rank " + std::to_string(diagnosis.cutsInto) + "."
           : words.empty()          ? ": the part, or one of just this shape, may not be in it."
@@ -392,7 +440,7 @@ std::vector<std::string> reasonsOf(const Diagnosis& diagnosis)
   }
   if (std::abs(diagnosis.moreByCalibration) >= LeastTold)
   {
-    add(std::string("By what judged poses have taught it is ") + (diagnosis.moreByCalibration > 0.0 ? "more" : "less") +
+    add(std::string("The model's calibration makes it ") + (diagnosis.moreByCalibration > 0.0 ? "more" : "less") +
         " likely, by " + decimal(std::abs(diagnosis.moreByCalibration)) + ".");
   }
   if (diagnosis.found)
@@ -407,7 +455,7 @@ std::vector<std::string> reasonsOf(const Diagnosis& diagnosis)
     const std::string sizes = sizesWords(diagnosis.found->contradictions.lengths);
     if (!sizes.empty())
     {
-      add("Against the lengths in the CAD file all likely poses together measure " + sizes + ".");
+      add("Of the lengths in the CAD file the parts in this scan measure " + sizes + ".");
     }
     if (diagnosis.found->contradictions.thickness != 1.0)
     {
@@ -440,10 +488,10 @@ std::vector<DiagnosisNumber> numbersOf(const Diagnosis& diagnosis)
   add("edges", "of these on lines longer than the part, as the bin's rim: they do not count",
     evidence.points.counts.edgesOfBin, evidence.edgesMatched);
   const double points = static_cast<double>(evidence.points.surface.size());
-  const std::pair<PointState, const char*> states[] = { { PointState::Matched, "matched" },
+  const std::pair<PointState, const char*> states[] = { { PointState::Matched, "explained" },
     { PointState::Turned, "turned: a surface that faces elsewhere" },
     { PointState::Hidden, "hidden: something lies in front" },
-    { PointState::Violated, "violated: the sensor saw past" }, { PointState::Unknown, "not measured" } };
+    { PointState::Violated, "seen past: the sensor saw something behind" }, { PointState::Unknown, "not measured" } };
   for (const auto& [state, name] : states)
   {
     add("surface", name, evidence.surface(state), points);

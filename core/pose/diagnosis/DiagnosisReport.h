@@ -11,8 +11,11 @@ namespace meam
 /// The step that lost a part, and why, in a plain sentence.
 std::string verdictOf(const Diagnosis& diagnosis, const DetectionSettings& detection);
 
-/// What to change: in the scan, or properties of the filter MEAM Pose Estimation; empty where nothing is known to help.
+/// What to change: in the scan, or properties of the filter MEAM Pose Estimation; empty where nothing was lost.
 std::string adviceOf(const Diagnosis& diagnosis, const DetectionSettings& detection);
+
+/// What speaks most for the place and most against it, two sentences at most; empty with the paper's verification.
+std::string mainReasonOf(const Diagnosis& diagnosis);
 
 /// What speaks for the place and what against it, in the logarithm of odds, what may be another part that looks alike,
 /// how sure the rotation is, and the nearest other pose: a sentence each.

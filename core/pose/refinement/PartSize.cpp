@@ -154,7 +154,7 @@ std::string untoldWords(const Eigen::Vector3d& factors, const std::string& parts
     }
   }
   return axes.empty() ? ""
-                      : "This scan does not tell how long " + parts + " are along " + axes +
-                          ": a part that differs in that alone looks the same.";
+                      : "How long " + parts + " are along " + axes +
+                          " cannot be checked in this scan: a longer or shorter part looks the same.";
 }
 }

@@ -26,7 +26,7 @@ PartSize measurePartSize(const Poses& poses, const Scene& scene, const TrainedMo
 std::string sizeWords(const Eigen::Vector3d& factors);
 /// All of them, "0.89 along x, 1.00 along y, not told along z"; empty when none is known.
 std::string sizesWords(const Eigen::Vector3d& factors);
-/// What such lengths leave open: "This scan does not tell how long the parts are along z: ..."; empty where all are
+/// What such lengths leave open: "How long the parts are along z cannot be checked ..."; empty where all are
 /// known, or none is. `parts`: "the parts", or those of one type.
 std::string untoldWords(const Eigen::Vector3d& factors, const std::string& parts = "the parts");
 }

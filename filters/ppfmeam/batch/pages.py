@@ -58,4 +58,4 @@ def write_index(folder, lines):
                 f"{float(line['find_s']):.2f} s", *map(html.escape, said)], bool(line["failure"])
 
     with scripting.written(os.path.join(folder, "index.html")) as file:
-        file.write(listing.html(f"{len(lines)} scans", COLUMNS, map(cells, lines)))
+        file.write(listing.html(f"{len(lines)} scan{'s' * (len(lines) != 1)}", COLUMNS, map(cells, lines)))

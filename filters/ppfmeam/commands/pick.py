@@ -47,12 +47,28 @@ def grasps_of(of, names, gripper, lengths):
     return sets
 
 
+def print_picks(picks, names):
+    """The best pick of each copy: where the gripper goes."""
+    transforms = picks.transforms if picks.robot_transforms is None else picks.robot_transforms
+    possible = numpy.flatnonzero(picks.possible)
+    _, first = numpy.unique(picks.instances[possible], return_index=True)
+    if len(first):
+        print("pick  of rank  grasp          clearance  x, y, z (mm)                    quaternion (x y z w)")
+    for k in possible[numpy.sort(first)]:
+        which = "" if len(names) == 1 else f"  {names[picks.parts[k]]}"
+        x, y, z = transforms[k][:3, 3]
+        turn = " ".join(f"{value:8.5f}" for value in scripting.quaternion_of(transforms[k]))
+        print(f"{k + 1:4d}  {picks.instances[k] + 1:7d}  {picks.names[k]:13s}  {picks.clearances[k]:6.1f} mm  "
+              f"{x:9.3f} {y:9.3f} {z:9.3f}  {turn}{which}")
+
+
 def main():
     parser = scripting.Parser(description=__doc__)
     asked.add_options(parser)
     parser.set_defaults(poses=0, probability=0.5)  # all copies are in the way
     choices.add_options(parser, "detect", "time_limit")
     add_gripper_options(parser)
+    choices.add_options(parser, "plan", "tilt", "covered", "margin")
     parser.add_argument("--no-bin", action="store_true", help="the parts lie in no bin: do not look for one")
     parser.add_argument("--robot-frame", metavar="FILE", help="the camera in the robot's frame, of OpenCV or ROS: picks are printed in it")
     parser.add_argument("--json", metavar="FILE", help="write all picks as JSON, with what is against those that are not possible")
@@ -66,13 +82,10 @@ def main():
     found = ppfmeam.detect(of.models, of.scan, time_limit=options.time_limit, **of.inputs())
     no_bin = options.no_bin or not len(found)  # without a copy it matters to none
     picks = ppfmeam.pick(found, sets, of.scan, gripper=gripper, bin="none" if no_bin else "detected", robot_frame=options.robot_frame,
-                         camera=of.beside["camera"], scale=options.scale)
+                         camera=of.beside["camera"], scale=options.scale, **choices.of_options("plan", options).values)
     advice = picks.advice if len(found) else found.advice
     print(picks.report, advice)
-    for k in numpy.flatnonzero(picks.possible):
-        which = "part" if len(names) == 1 else names[picks.parts[k]]
-        print(f"{which} {picks.instances[k] + 1} by {picks.names[k]}, clearance {picks.clearances[k]:.1f} mm")
-        print(picks.transforms[k] if picks.robot_transforms is None else picks.robot_transforms[k])
+    print_picks(picks, names)
     if options.json:
         columns = {name: getattr(picks, name) for name in picks.COLUMNS}
         if options.robot_frame:

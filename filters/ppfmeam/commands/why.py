@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tells why a part of a scan was missed: which step lost it, and what to change; with --more in numbers, too, and what speaks for a
-pose that came out, right or wrong, and what against."""
+"""Tells why a part of a scan was missed, or why a pose came out, right or wrong: which step lost it, what speaks most for it and most
+against it, and what to change; with --more all of it, in numbers."""
 import math
 
 import numpy
@@ -21,6 +21,7 @@ def options_of_user():
     place.add_argument("--pose", metavar="FILE[:ROW]",
                        help="where the part lies: a pose of a file (BOP's CSV, JSON, or 4x4 matrices), the first or that of "
                             "a row, from 1; it is fitted to the scan first")
+    place.add_argument("--rank", type=int, metavar="N", help="the pose that comes out as this rank, from 1, with the same options")
     place.add_argument("--truth", metavar="FILE", nargs="?", const="",
                        help="the true poses of all parts, a file of the same kinds, or, without one, those that the dataset has of the object: "
                             "a line for each with the stage that lost it")
@@ -74,9 +75,9 @@ def print_numbers(diagnosis):
     if diagnosis.reasons:
         print(diagnosis.reasons)
     if diagnosis.pose is not None:
-        print(f"{'place':26s}" + "  ".join(" ".join(f"{x:.4f}" for x in row) for row in diagnosis.pose[:3]))
+        print(f"{'place':28s}" + "  ".join(" ".join(f"{x:.4f}" for x in row) for row in diagnosis.pose[:3]))
     for step, quantity, value, of in diagnosis.numbers:
-        print(f"{step:26s}{quantity}: {words(value)}" + ("" if math.isnan(of) else f" / {words(of)}"))
+        print(f"{step:28s}{quantity}: {words(value)}" + ("" if math.isnan(of) else f" / {words(of)}"))
 
 
 def answer(diagnosis, parts):
@@ -86,7 +87,7 @@ def answer(diagnosis, parts):
 
 def content(diagnosis):
     """All of it, for JSON."""
-    told = {name: getattr(diagnosis, name) for name in ("part", "verdict", "advice", "reasons", "lost_in", "rank", "pose", "unexplained")}
+    told = {name: getattr(diagnosis, name) for name in ("part", "verdict", "main_reason", "advice", "reasons", "lost_in", "rank", "pose", "unexplained")}
     return {**told, "numbers": [dict(zip(("step", "quantity", "value", "of"), row)) for row in diagnosis.numbers]}
 
 
@@ -113,8 +114,11 @@ def main():
         print(f"{sum(not diagnosis.lost_in for diagnosis in found)} of {len(found)} were found")
         told = [content(diagnosis) for diagnosis in found]
     else:
-        place = {"at": options.at} if options.at else {"pose": chosen(options.pose), "fit": True}
-        diagnosis = api.why(of.models, of.scan, **place, **inputs)
+        if options.rank is not None:
+            diagnosis = api.detect(of.models, of.scan, **inputs).why(rank=options.rank)
+        else:
+            place = {"at": options.at} if options.at else {"pose": chosen(options.pose), "fit": True}
+            diagnosis = api.why(of.models, of.scan, **place, **inputs)
         print(answer(diagnosis, options.parts))
         if options.more:
             print_numbers(diagnosis)

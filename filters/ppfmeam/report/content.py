@@ -19,8 +19,8 @@ MOST_TRIANGLES = 20000  # of a part: 1 MB, and a graphics card of a laptop turns
 MOST_PIXELS = 1600  # along the picture's longer side
 QUALITY = 85  # of its JPEG
 CREASE = 30  # degrees between faces that are shaded as one
-STATES = {"matched": "#00d9d9", "turned": "#f2d9a6", "hidden": "#8c5c33", "not measured": "#bfb3ff",
-          "violated": "#ff00d9", "unexplained": "#b3ff1a"}  # as in ParaView
+STATES = {"explained": "#00d9d9", "turned": "#f2d9a6", "hidden": "#8c5c33", "not measured": "#bfb3ff",
+          "seen past": "#ff00d9", "missing": "#0d0d0d", "unexplained": "#b3ff1a"}  # as in ParaView
 STRAY = 0.2, 99.8  # percentiles
 FLOOR = 0.1  # share of the depths that the farthest surface has
 AWAY = 0.3  # share of the largest distance that nothing is nearer than to a sensor; above a floor there are points at 0

@@ -302,12 +302,18 @@
       if (data.why) code(data.why.replace("{x}", at[0]).replace("{y}", at[1]).replace("{z}", at[2]));
     } else if (pose) {
       add("h2", data.marks ? "What the scan shows at the place" : (pose.tag ? "A copy that was missed" : `Rank ${pose.rank}`) + (data.parts.length > 1 ? `, ${data.parts[pose.part].name}` : ""));
-      if (pose.why) add("p", pose.why);
+      const [brief, more] = pose.why.split("\n\n");
+      if (brief) add("p", brief);
+      if (more) {
+        const all = add("details", "");
+        all.appendChild(Object.assign(document.createElement("summary"), { textContent: "More, in numbers" }));
+        all.appendChild(Object.assign(document.createElement("p"), { textContent: more }));
+      }
       if (pose.certainty < data.likely) add("p", "How it is turned is unsure: what tells its rotations apart is hardly visible. A scan from another side shows it.");
       add("p", "Takes the part's coordinates to the scan's, mm:", "quiet");
       code([0, 4, 8, 12].map(k => fixed(pose.transform.slice(k, k + 4), 5).map(text => text.padStart(11)).join("")).join("\n"));
       const turn = new THREE.Quaternion().setFromRotationMatrix(new THREE.Matrix4().fromArray(pose.transform).transpose());
-      add("p", "Quaternion (x y z w): " + fixed(turn.toArray(), 5).join(" "), "quiet");
+      add("p", "Quaternion (x y z w): " + fixed(turn.toArray().map(x => turn.w < 0 ? -x : x), 5).join(" "), "quiet"); // w >= 0
     } else {
       add("h2", "What next");
       const least = Math.round(100 * state.least);

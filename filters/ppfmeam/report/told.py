@@ -101,8 +101,10 @@ def names_of(parts):
 
 
 def sentences(why):
-    """Of a Diagnosis; that a pose of the table was found goes without saying."""
-    return "\n".join(filter(None, (why.verdict if why.lost_in else "", why.reasons, why.advice)))
+    """Of a Diagnosis, and behind an empty line all that speaks for it and against it; that a pose of the table was found goes without
+    saying."""
+    brief = "\n".join(filter(None, (why.verdict if why.lost_in else "", why.main_reason, why.advice)))
+    return "\n\n".join(filter(None, (brief, why.reasons)))
 
 
 def written(value):

@@ -40,9 +40,8 @@ TEST(Pick, ACopyIsCountedWithTheGraspThatComesFarthest)
     "1 of 4 copies can be picked, by 1 of 7 picks; the others: 2 without a grasp from above, "
     "1 too near to the bin.");
   EXPECT_EQ(meam::adviceOn(picks),
-    "Copies without a grasp from above: raise the maximum tilt, have more grasps proposed or define one by hand, or "
-    "take "
-    "another gripper. Copies too near to the bin: take a slimmer or longer gripper, or lower the safety margin.");
+    "Copies without a grasp from above: raise MaximumTilt, have more grasps proposed or define one by hand, or "
+    "take another gripper. Copies too near to the bin: take a slimmer or longer gripper, or lower SafetyMargin.");
 }
 
 TEST(Pick, ThereIsNoAdviceWhereAllCopiesCanBePicked)

@@ -188,7 +188,7 @@ TEST(PickPlanning, TheBestComesFirstAndTheImpossibleLast)
   EXPECT_EQ(picks[2].pose, 2);
   EXPECT_FALSE(picks[2].possible());
   EXPECT_EQ(meam::describe(picks), "2 of 3 copies can be picked, by 2 of 3 picks; the others: 1 too uncertain.");
-  EXPECT_EQ(meam::adviceOn(picks), "Copies too uncertain: lower the minimum probability, or scan again.");
+  EXPECT_EQ(meam::adviceOn(picks), "Copies too uncertain: lower MinimumProbability, or scan again.");
 }
 
 TEST(PickPlanning, SeveralTypesEachWithItsGraspsAreInEachOthersWay)

@@ -33,6 +33,17 @@ TEST(ScanAdvice, NothingOfAGoodScan)
   EXPECT_EQ(meam::scanAdvice({}, {}, { claimed(0.9, 1.0) }, 100.0), "") << "nor where nothing is known";
 }
 
+TEST(ScanAdvice, ThereMayBeMoreWhereAsManyAreThereAsWereAskedFor)
+{
+  meam::DetectionReport report;
+  report.maximumPoses = 2;
+  EXPECT_EQ(meam::scanAdvice(goodScan(), report, { claimed(0.9, 1.0), claimed(0.8, 1.0) }, 100.0),
+    "No more than 2 were asked for: there may be more (MaximumNumberOfPoses, 0: all).");
+  EXPECT_EQ(meam::scanAdvice(goodScan(), report, { claimed(0.9, 1.0), claimed(0.2, 1.0) }, 100.0), "");
+  report.maximumPoses = 0;
+  EXPECT_EQ(meam::scanAdvice(goodScan(), report, { claimed(0.9, 1.0), claimed(0.8, 1.0) }, 100.0), "");
+}
+
 TEST(ScanAdvice, AGuessedViewpointIsAskedForFirstWhereNothingIsSure)
 {
   meam::ScanQuality scan = goodScan();

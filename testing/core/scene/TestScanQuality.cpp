@@ -108,7 +108,7 @@ TEST(ScanQuality, SaysWhatItIsInASentence)
   EXPECT_EQ(meam::describe(meam::ScanQuality{ 0.5, 0.123, 4.0, 0.25, 1.5, 0.5, 0.99 }),
     "Points 0.50 mm apart; noise 0.12 mm, alike over 4 points; depth in steps of 0.250 mm; depth at 99 % of the "
     "points; "
-    "at depth jumps 1.5 points without depth, and a point that hangs between in 50 %.");
+    "at depth jumps 1.5 points without depth, and in 50 % of them a stray point between.");
 }
 
 TEST(ScanQuality, NotKnownWithoutNeighbours)

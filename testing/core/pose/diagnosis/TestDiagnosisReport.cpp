@@ -45,7 +45,7 @@ std::string verdict(LossCause cause, std::optional<PoseStage> lostIn = {})
 
 TEST(DiagnosisReport, VerdictsAreSentences)
 {
-  EXPECT_EQ(verdict(LossCause::None), "Found as rank 7, 30 %, 0.6 mm and 1.2 degrees off.");
+  EXPECT_EQ(verdict(LossCause::None), "Found as rank 7, 30 %, 0.6 mm and 1.2 degrees off the place asked about.");
   EXPECT_EQ(verdict(LossCause::NotWanted, PoseStage::Selection),
     "Found as rank 7, 30 %, 0.6 mm and 1.2 degrees off, but only the best 5 of at least 50 % are wanted.");
   EXPECT_EQ(verdict(LossCause::Hidden, PoseStage::Voting),
@@ -108,9 +108,42 @@ TEST(DiagnosisReport, AdviceNamesAProperty)
     diagnosis.rankWithoutLimits = 7;
     return meam::adviceOf(diagnosis, detection);
   };
-  EXPECT_EQ(advice(LossCause::Outvoted), "");
+  EXPECT_NE(advice(LossCause::Outvoted), "");
   EXPECT_EQ(advice(LossCause::Outvoted, meam::Features::Edges), "Let edges and surface vote (Features: Both).");
   EXPECT_EQ(advice(LossCause::None), "");
+}
+
+TEST(DiagnosisReport, WhereAPartWasLostThereIsAdvice)
+{
+  const meam::DetectionSettings detection = meam::detectionSettings(meam::Preset::Recommended, 5);
+  for (int cause = static_cast<int>(LossCause::None) + 1; cause <= static_cast<int>(LossCause::NotWanted); ++cause)
+  {
+    meam::Diagnosis diagnosis = example(static_cast<LossCause>(cause), PoseStage::Selection);
+    diagnosis.rankWithoutLimits = 7;
+    diagnosis.found.emplace();
+    diagnosis.found->certainty = 0.5;
+    EXPECT_NE(meam::adviceOf(diagnosis, detection), "") << cause;
+  }
+}
+
+TEST(DiagnosisReport, WhatSpeaksMostForAPoseAndMostAgainstItIsTold)
+{
+  meam::Diagnosis diagnosis = example(LossCause::None);
+  EXPECT_EQ(meam::mainReasonOf(diagnosis), "");
+  diagnosis.odds.terms = { { "edges", "points found", 30.0, 2.0 }, { "visible surface", "patches", 10.0, 10.0 } };
+  EXPECT_EQ(meam::mainReasonOf(diagnosis), "Most for it: visible surface.");
+  diagnosis.odds.terms.push_back({ "surface that the sensor saw past", "patches", 0.5, -4.0 });
+  EXPECT_EQ(
+    meam::mainReasonOf(diagnosis), "Most for it: visible surface. Most against it: surface that the sensor saw past.");
+  diagnosis.lessByOthers = 4.2;
+  EXPECT_EQ(meam::mainReasonOf(diagnosis),
+    "Most for it: visible surface. Most against it: a part of just this shape may not be in the scan.");
+  diagnosis.cutsInto = 5;
+  EXPECT_EQ(
+    meam::mainReasonOf(diagnosis), "Most for it: visible surface. Most against it: its body cuts into that of rank 5.");
+  diagnosis.cause = LossCause::NotWanted;
+  diagnosis.probability = 0.9;
+  EXPECT_EQ(meam::mainReasonOf(diagnosis), "") << "the limit is the reason";
 }
 
 TEST(DiagnosisReport, WhatSpeaksForAPoseAndAgainstItIsTold)
@@ -133,10 +166,10 @@ TEST(DiagnosisReport, WhatSpeaksForAPoseAndAgainstItIsTold)
   const std::vector<std::string> sentences{
     "For it, in the logarithm of the odds: surface that agrees, 10.0 patches (+10.0); edges, 30.0 points found "
     "(+2.0).",
-    "Against it: surface that the sensor saw past, 0.5 patches (-4.0), and that little is right of what is "
-    "anywhere (-6.3).",
-    "Together that makes 1.7, which counts by its logarithm (1.4).",
-    "With all that the scan holds it is less likely, by 4.2: its body cuts into that of rank 5.",
+    "Against it: surface that the sensor saw past, 0.5 patches (-4.0); to begin with, that most candidates are wrong "
+    "(-6.3).",
+    "Together that makes 1.7. So large a sum is damped, to 1.4.",
+    "The rest of the scan makes it less likely, by 4.2: its body cuts into that of rank 5.",
     "Its rotation is 70 % sure; turned by 180.0 degrees it is 25 %.",
     "The nearest other pose is rank 9, 12 %, 14.0 mm and 90.0 degrees off."
   };
@@ -144,17 +177,18 @@ TEST(DiagnosisReport, WhatSpeaksForAPoseAndAgainstItIsTold)
   diagnosis.odds.searched = 2.34;
   diagnosis.odds.shareOfSearch = 0.4;
   EXPECT_EQ(meam::reasonsOf(diagnosis)[1], sentences[1]);
-  const std::string bySearch = "This scan shows few of a part's edges. So these count by 60 %, and by 40 % what it was "
-                               "searched for by, which counts each point by itself (2.3";
-  EXPECT_EQ(meam::reasonsOf(diagnosis)[3], bySearch + ").");
+  const std::string bySearch =
+    "This scan shows few edges of a part: 40 % of the weight has the sum that it was searched by (2.3).";
+  EXPECT_EQ(meam::reasonsOf(diagnosis)[3], bySearch);
   diagnosis.penalty = 1.0;
   diagnosis.odds.searched -= diagnosis.penalty;
-  EXPECT_EQ(meam::reasonsOf(diagnosis)[3], bySearch + "; -1.0, for it was moved to where that is most).");
+  EXPECT_EQ(
+    meam::reasonsOf(diagnosis)[3], bySearch + " That sum has 1.0 less, for the pose was moved to where it is largest.");
   diagnosis.odds.shareOfSearch = 0.0;
   const meam::DetectionSettings detection = meam::detectionSettings(meam::Preset::Recommended);
   diagnosis.cutsInto = 0;
   EXPECT_EQ(meam::reasonsOf(diagnosis)[3],
-    "With all that the scan holds it is less likely, by 4.2: it may be another part that looks alike, for surface goes "
+    "The rest of the scan makes it less likely, by 4.2: it may be another part that looks alike, for surface goes "
     "on beside it over 0.5 patches, and surface lies off the part by 3.0 times what the scan explains.");
   EXPECT_EQ(meam::adviceOf(diagnosis, detection),
     "If it is wrong: where parts that look alike lie, search for all of them together.");
@@ -163,7 +197,7 @@ TEST(DiagnosisReport, WhatSpeaksForAPoseAndAgainstItIsTold)
   EXPECT_NE(meam::adviceOf(diagnosis, detection).find("RotationCounts"), std::string::npos);
   diagnosis.continuing = 0.5;
   EXPECT_EQ(meam::reasonsOf(diagnosis)[3],
-    "Against it, too: measured surface goes on beside it over 0.5 patches, which it leaves unexplained.");
+    "Against it, too: measured surface goes on beside it over 0.5 patches, unexplained.");
   // What to change where a pose that came out is wrong; of a place that was given nothing.
   diagnosis.found->certainty = 1.0;
   diagnosis.probability = 0.8;
