@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <vector>
 
 namespace meam
@@ -22,6 +23,8 @@ constexpr double LeastCoverage = 0.6; // of the grid: bins of matt parts have mo
 constexpr double LikelyThere = 0.5;
 constexpr double SureRotation = 0.9;
 constexpr std::size_t MostSentences = 2;
+
+bool isThere(const Pose& pose) { return claimOf(pose, false) >= LikelyThere; }
 
 std::string percent(double share) { return std::to_string(std::lround(100.0 * share)) + " %"; }
 }
@@ -46,7 +49,6 @@ std::string scanAdvice(const ScanQuality& quality, const DetectionReport& report
   double partDiameter, bool isViewpointGuessed)
 {
   std::vector<std::string> sentences;
-  const auto isThere = [](const Pose& pose) { return claimOf(pose, false) >= LikelyThere; };
   const auto there = std::count_if(poses.begin(), poses.end(), isThere);
   if (isViewpointGuessed && there == 0)
   {
@@ -130,5 +132,29 @@ std::string scanAdvice(const ScanQuality& quality, const DetectionReport& report
     appendSentence(advice, sentence);
   }
   return advice;
+}
+
+std::string scanSummary(
+  const ScanQuality& quality, const DetectionReport& report, const Poses& poses, double partDiameter)
+{
+  std::string summary;
+  if (quality.isKnown())
+  {
+    char noise[16];
+    std::snprintf(noise, sizeof noise, "%.1f", 100.0 * quality.noise / partDiameter);
+    summary = "The part is " + std::to_string(std::lround(partDiameter / quality.pointDistance)) +
+              " pixels long, the noise " + noise + " % of that.";
+  }
+  if (report.rates)
+  {
+    appendSentence(summary, percent(report.rates->edges.found) + " of its edges are found, " +
+                              percent(report.rates->edges.chance) + " anywhere.");
+  }
+  const auto there = std::count_if(poses.begin(), poses.end(), isThere);
+  const WorkCounts& work = report.work;
+  appendSentence(summary, "Of " + std::to_string(work.screened) + " candidates " + std::to_string(work.verified) +
+                            " had surface, " + std::to_string(work.refined) + " were refined; " +
+                            std::to_string(there) + " of " + std::to_string(poses.size()) + " poses are likely.");
+  return summary;
 }
 }

@@ -15,4 +15,9 @@ std::string adviceOnNothing(const WorkCounts& work);
 /// poses. A scan whose viewpoint was guessed is on no grid of its sensor: how much of it was measured is not known.
 std::string scanAdvice(const ScanQuality& quality, const DetectionReport& report, const Poses& poses,
   double partDiameter, bool isViewpointGuessed = false);
+
+/// What that rests on, in a line: how large the part is in the scan, its noise and edges, and at which stage how many
+/// candidates were left.
+std::string scanSummary(
+  const ScanQuality& quality, const DetectionReport& report, const Poses& poses, double partDiameter);
 }

@@ -115,6 +115,7 @@ int vtkMEAMPoseEstimation::RequestData(
     this,
     [&]
     {
+      this->Suggestion.clear();
       requireInputs(this, { "Part", "Scan" });
       const double start = vtkTimerLog::GetUniversalTime();
       Work work = this->Prepare(inputVector);
@@ -176,6 +177,8 @@ int vtkMEAMPoseEstimation::RequestData(
       const double largest = meam::largestDiameter(models);
       const std::string advice = meam::scanAdvice(scene.quality, report, poses, largest, scene.isViewpointGuessed);
       setFieldText(output, "Advice", advice);
+      this->Suggestion = (advice.empty() ? "Nothing stands out that has to be changed." : advice) + "\n" +
+                         meam::scanSummary(scene.quality, report, poses, largest);
       fromAnswer(
         { poses.empty() ? meam::describe(poses) : describeHidden(poses, drawn.minimumProbability, "ShownProbability"),
           advice },
@@ -250,4 +253,5 @@ void vtkMEAMPoseEstimation::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "ShownProbability: " << this->ShownProbability << "\n";
+  os << indent << "Suggestion: " << this->Suggestion << "\n";
 }

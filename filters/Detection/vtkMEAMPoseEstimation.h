@@ -51,6 +51,7 @@
 #include "vtkSmartPointer.h"
 
 #include <memory>
+#include <string>
 
 class vtkPartitionedDataSetCollection;
 
@@ -72,6 +73,13 @@ public:
    */
   vtkMEAMClampedMemberMacro(ShownProbability, double, 0.0, 1.0);
 
+  /**
+   * What the last scan suggests to change first, and in a second line what that rests on: pixels on the part, noise,
+   * edges that are found, and how many candidates were left at which stage. Empty before the first update, or after one
+   * that failed.
+   */
+  const char* GetSuggestion() const { return this->Suggestion.c_str(); }
+
 protected:
   vtkMEAMPoseEstimation();
   ~vtkMEAMPoseEstimation() override;
@@ -81,6 +89,7 @@ protected:
 
 private:
   double ShownProbability = 0.5;
+  std::string Suggestion;
   std::shared_ptr<const vtkMEAMConversion::TrainedPart> Given; ///< the part whose model GivenData is
   vtkSmartPointer<vtkPartitionedDataSetCollection> GivenData;
 };

@@ -2,6 +2,7 @@
 """The whole chain in one filter on a simulated bin: with the CAD or its trained model, an image or ready-made edges."""
 import json
 import math
+import re
 
 from vtkmodules.vtkCommonCore import vtkStringArray, vtkUnsignedCharArray
 from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkStructuredGrid
@@ -85,6 +86,8 @@ labels = [poses.GetPointData().GetAbstractArray("Label").GetValue(i) for i in ra
 sure = [f", rotation {round(100 * c)} %" if c < 0.95 else "" for c, in tuples(poses, "Certainty")]
 check(labels == [f"{i + 1}: {round(100 * p)} %{sure[i]}" for i, (p,) in enumerate(tuples(poses, "PlaceProbability"))],
       f"labels {labels}")
+check(re.fullmatch(r"No more than 2 were asked for: .*\nThe part is \d+ pixels long, .* 2 of 2 poses are likely\.", filter.GetSuggestion()),
+      f"what the scan suggests: {filter.GetSuggestion()}")
 check(answer(filter).startswith("No more than 2 were asked for: ") and
       answer(estimation(part, scan, MaximumNumberOfPoses=0, ShownProbability=0.0)) == "", answer(filter))
 scores, stages = filter.GetOutputDataObject(3), filter.GetOutputDataObject(4)

@@ -51,6 +51,8 @@ def check_property(name, key, prop, instance):
     command = prop.GetCommand() or ""
     if prop.GetClassName() in WITHOUT_DEFAULT or command in WITHOUT_DEFAULT or prop.GetInformationOnly():
         return
+    if not command and prop.GetPanelWidget() == "meam_suggestion":  # the panel's alone
+        return
     domains = prop.NewDomainIterator()
     domains.Begin()
     check(not domains.IsAtEnd() or prop.GetClassName() == "vtkSMStringVectorProperty", f"{where}: no domain")  # any text

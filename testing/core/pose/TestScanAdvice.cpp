@@ -44,6 +44,21 @@ TEST(ScanAdvice, ThereMayBeMoreWhereAsManyAreThereAsWereAskedFor)
   EXPECT_EQ(meam::scanAdvice(goodScan(), report, { claimed(0.9, 1.0), claimed(0.8, 1.0) }, 100.0), "");
 }
 
+TEST(ScanAdvice, WhatItRestsOnIsALine)
+{
+  meam::DetectionReport report;
+  report.work = { 300, 500, 120, 40, 30 };
+  EXPECT_EQ(meam::scanSummary({}, report, { claimed(0.9, 1.0), claimed(0.2, 1.0) }, 100.0),
+    "Of 500 candidates 120 had surface, 40 were refined; 1 of 2 poses are likely.");
+  report.rates = { { 0.5, 0.2 }, { 0.9, 0.5 } };
+  meam::ScanQuality scan = goodScan();
+  scan.pointDistance = 0.5;
+  scan.noise = 0.3;
+  EXPECT_EQ(meam::scanSummary(scan, report, {}, 100.0),
+    "The part is 200 pixels long, the noise 0.3 % of that. 50 % of its edges are found, 20 % anywhere. Of 500 "
+    "candidates 120 had surface, 40 were refined; 0 of 0 poses are likely.");
+}
+
 TEST(ScanAdvice, AGuessedViewpointIsAskedForFirstWhereNothingIsSure)
 {
   meam::ScanQuality scan = goodScan();
