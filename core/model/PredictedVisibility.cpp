@@ -263,6 +263,22 @@ PredictedVisibility::PredictedVisibility(const TrainedModel& model, int cachedDi
   }
 }
 
+const PointGrid& PredictedVisibility::Visible::edgeGrid() const
+{
+  std::shared_ptr<const PointGrid> known = std::atomic_load(&this->grid);
+  if (!known)
+  {
+    Points points(this->edges.size());
+    for (std::size_t k = 0; k < points.size(); ++k)
+    {
+      points[k] = this->edges.points[k];
+    }
+    const auto made = std::make_shared<const PointGrid>(points, this->cellOfGrid);
+    known = std::atomic_compare_exchange_strong(&this->grid, &known, made) ? made : known; // of two threads the first
+  }
+  return *known;
+}
+
 double PredictedVisibility::cellSize() const { return Cell * this->Diameter; }
 
 Eigen::Vector3f PredictedVisibility::towards(const Eigen::Isometry3d& T_scene_model, const Sensor& sensor) const
@@ -329,7 +345,7 @@ PredictedVisibility::Visible PredictedVisibility::visibleFrom(const Eigen::Vecto
   const int borderCells =
     static_cast<int>(std::clamp(std::round(Border * pitch / this->cellSize()), 1.0, 1.0 * WidestBorder));
   const double inset = Inset * pitch;
-  Visible visible{ towards, {}, {}, {}, {}, {}, {} };
+  Visible visible{ towards, {}, {}, {}, {}, {}, static_cast<float>(EdgeCell * this->Diameter), nullptr };
   const float cell = static_cast<float>(Cell * this->Diameter);
   const float tolerance = static_cast<float>(Tolerance * this->Diameter);
   const View across = viewAlong(towards, this->HalfCells, cell);
@@ -365,12 +381,6 @@ PredictedVisibility::Visible PredictedVisibility::visibleFrom(const Eigen::Vecto
       visible.edges.add(contour.point, contour.tangent);
     }
   }
-  Points edges(visible.edges.size());
-  for (std::size_t k = 0; k < edges.size(); ++k)
-  {
-    edges[k] = visible.edges.points[k];
-  }
-  visible.edgeGrid = PointGrid(edges, EdgeCell * this->Diameter);
   project(across, this->VerificationPoints.points, others);
   allowForSlope(towards, this->VerificationPoints.directions, cell, static_cast<float>(GrazingCosine), others);
   keepInSight(others, nearest, tolerance, inSight);

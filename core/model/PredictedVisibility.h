@@ -40,13 +40,17 @@ public:
   {
     Eigen::Vector3f from;      ///< the direction to the sensor, rounded to a step
     SoAOrientedPoints edges;   ///< with tangents: those of sharp edges, then of the contours that this direction makes
-    PointGrid edgeGrid;        ///< of these
     std::vector<int> surface;  ///< indices of verification points
     std::vector<char> isInner; ///< of these, whether they lie further than the border inside the part's outline,
     std::vector<float> falls;  ///< and by how much the part itself falls off in the next cell, mm; 0: less than `drop`
     /// Beside the part's outline, outside, at the depth of its border: points a cell further off than the border, a
     /// cell apart, mm.
     Points outside;
+
+    /// Of the edges; made when it is first asked for, as of few directions it is. Calls may run in parallel.
+    const PointGrid& edgeGrid() const;
+    float cellOfGrid; ///< mm
+    mutable std::shared_ptr<const PointGrid> grid;
   };
   /// mm, of the depth buffer.
   double cellSize() const;

@@ -171,7 +171,7 @@ double PoseComparison::advantageByEdges(const Contender& one, const Contender& o
   // What a scene edge counts that an edge of the part explains.
   const auto ofEdge = [&](const Contender& pose, const Eigen::Vector3f& inModel)
   {
-    const bool isVisible = !pose.visible || pose.visible->edgeGrid.nearest(inModel, near) >= 0;
+    const bool isVisible = !pose.visible || pose.visible->edgeGrid().nearest(inModel, near) >= 0;
     return isVisible ? OfEdge : OfHidden * OfEdge;
   };
   const PointGrid& measured = this->InScene.edgeGrid();

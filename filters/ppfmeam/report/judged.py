@@ -17,6 +17,7 @@ PIXELS = 1000  # along a picture's longer side
 FEW_OBJECTS = 2  # of more objects each has fewer triangles
 COLORS = {"right": "#2a9d4a", "wrong": "#dc1e1e", "missed": "#f2b705"}
 COLUMNS = ("image", "copies to find", "found", "missed", "wrong poses", "")
+TOLD = "Copies to find are half visible and more; others count as right where they are found. Wrong poses are on no copy, turned, or second ones."
 WRONG = {1: "A better pose has the same copy.", 2: "A copy is here, turned otherwise:", 3: "No copy is here: the nearest is"}  # by Outcome
 
 
@@ -71,7 +72,8 @@ class Images:
                  f'<iframe height="{notebook.HEIGHT}"></iframe>'
                  f'{scans}<script type="application/json" id="shared">{shared}</script>'
                  f'<script>{page.text_of(os.path.join(page.HERE, "judged.js"))}</script>')
-        return listing.html(title, COLUMNS, map(cells, range(len(self.rows))), f"<pre>{escape(figures)}</pre>", after)
+        before = f"<pre>{escape(figures)}</pre><p>{TOLD}</p>"
+        return listing.html(title, COLUMNS, map(cells, range(len(self.rows))), before, after)
 
 
 def is_shown(row):
