@@ -120,7 +120,7 @@ std::string scanAdvice(const ScanQuality& quality, const DetectionReport& report
   {
     sentences.push_back(adviceOnNothing(report.work));
   }
-  if (!poses.empty() && there == report.maximumPoses)
+  if (report.maximumPoses > 0 && there == report.maximumPoses)
   {
     sentences.push_back(
       "No more than " + std::to_string(there) + " were asked for: there may be more (MaximumNumberOfPoses, 0: all).");

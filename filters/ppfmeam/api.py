@@ -100,6 +100,7 @@ class Detections(Rows):
 
     def of(self, part):
         """Those of one of several types of part, by its place among them, as pick() takes them."""
+        self.require_part(part)
         found = Detections(self.core.of(part), [self.models[part]], self.inputs, self.of_cad, self.settings)
         found.age = self.age
         return found
@@ -110,12 +111,21 @@ class Detections(Rows):
         asked about at a point; None: that of the likely pose there, or else the one that has most evidence there."""
         if (at is None) == (rank is None):
             raise Error("give either at, a point on the part, or rank, of a pose that came out")
-        if rank is not None and rank not in range(1, len(self) + 1):
+        if rank is not None and (isinstance(rank, bool) or rank not in range(1, len(self) + 1)):
             raise Error(f"there is no pose of rank {rank!r}: {len(self)} came out")
+        if part is not None:
+            self.require_part(part)
+            if rank is not None and part != self[rank - 1].part:
+                raise Error(f"the pose of rank {rank} is of part {self[rank - 1].part}, not of part {part}: leave part out")
         self.require_scan()
         poses = self.data if rank is None else dataset.points_where(self.data, "Rank", rank)
         said = why(self.models, at=at, pose=poses, part_id=part, **self.inputs, **self.settings.values)
         return said if rank is None else said[0]
+
+    def require_part(self, part):
+        """Raises an Error where there is no such type of part."""
+        if isinstance(part, bool) or part not in range(len(self.models)):
+            raise Error(f"there is no part {part!r}: {len(self.models)} were looked for, from 0")
 
     def require_scan(self):
         """Raises an Error where the scan's file is another one than the parts were found in."""
@@ -204,13 +214,12 @@ def calibrate(model, judged):
 
 class Diagnosis:
     """Why a part was missed at a place: `verdict` (a sentence), `main_reason` (what speaks most for the place and most against it),
-    `advice` (what to change; both may be empty), `reasons` (what speaks for
-    it and against it, the nearest other pose, a line each), `lost_in` (the stage; empty: it was found), `rank` (of the pose
-    that came out there; 0: none), `part` (of several types the one that it is about), `pose` (4 x 4, the place, or None),
-    `numbers` (of each a tuple: step, quantity, value, what it is out of or NaN), `points` (N x 3, those of the part that should
-    be visible) and `states` (of each: "explained", "turned", "hidden", "not measured", "seen past", or of an edge "missing"), `unexplained` (M x 3,
-    measured surface of the scan that goes on beside the part there, and is not it). `data` is the VTK data object of the
-    points."""
+    `advice` (what to change; both may be empty), `reasons` (what speaks for it and against it, the nearest other pose, a line
+    each), `lost_in` (the stage; empty: it was found), `rank` (of the pose that came out there; 0: none), `part` (of several types
+    the one that it is about), `pose` (4 x 4, the place, or None), `numbers` (of each a tuple: step, quantity, value, what it is
+    out of or NaN), `points` (N x 3, those of the part that should be visible) and `states` (of each: "explained", "turned",
+    "hidden", "not measured", "seen past", or of an edge "missing"), `unexplained` (M x 3, measured surface of the scan that goes
+    on beside the part there, and is not it). `data` is the VTK data object of the points."""
 
     def __init__(self, data, table, beside):
         def text(name):

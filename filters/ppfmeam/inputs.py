@@ -123,6 +123,7 @@ def scan_of(scan, camera=None, scale=1.0, image=None, boundary=None, image_camer
     if box is not None:
         seen.region_box = box
     if mask is not None:
+        regions.require_shape(mask, seen.points.shape[:-1])
         seen.region_mask = mask
     return seen
 

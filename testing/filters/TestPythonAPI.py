@@ -206,6 +206,11 @@ class Faces:
 for each in ((corners, triangles), Faces()):
     same_model(ppfmeam.train(each).data, model.data)
 check(len(ppfmeam.detect((corners, triangles), scan, poses=1)) == 1, "the arrays of one part are no two parts")
+rows = numpy.ones((HEIGHT, WIDTH), bool)
+check(len(ppfmeam.detect(model, scan, poses=1, region=rows)) == 1, "a mask of all")
+raises(f"the mask of the region has {HEIGHT} x {WIDTH} pixels, and the scan {WIDTH} x {HEIGHT} points", ppfmeam.detect, model, scan, region=rows.T)
+raises("or a mask, not an array with the shape (7,)", ppfmeam.detect, model, scan, region=numpy.ones(7))
+raises("or a mask, not 7 values", ppfmeam.detect, model, scan, region=[1] * 7)
 raises("vertices have to be finite numbers N x 3, not float64 (3, 2)", ppfmeam.train, (corners[:3, :2], triangles))
 raises("triangles have to be whole numbers M x 3, not float64", ppfmeam.train, (corners, corners))
 raises("triangles have to be of its 4 vertices", ppfmeam.train, (corners[:4], triangles))

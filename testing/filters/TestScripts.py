@@ -162,6 +162,18 @@ told = [(int(row["obj_id"]), [float(word) for word in row["t"].split()]) for row
 check([(pose.part + 1, list(pose.transform[:3, 3])) for pose in together] == told, f"the same in Python: {together} {told}")
 check(sorted({0, 1} & set(together.parts)) == [0, 1] and sum(len(together.of(k)) for k in (0, 1)) == 4, "by part")
 check(tuples(together.data, "PartId") == [(part,) for part in together.parts], "as data")
+for wrong in (2, -1, "a", True):
+    try:
+        together.of(wrong)
+        check(False, f"there is no part {wrong!r}")
+    except ppfmeam.Error as error:
+        check("2 were looked for" in str(error), str(error))
+for arguments in ({"rank": True}, {"rank": 1, "part": 1 - together.parts[0]}, {"at": (0, 0, 600), "part": -1}):
+    try:
+        together.why(**arguments)
+        check(False, f"{arguments} are refused")
+    except ppfmeam.Error:
+        pass
 told = together.why(rank=1)
 again = together.why(at=told.points[told.states.index("explained")])
 check((told.rank, told.part) == (again.rank, again.part) == (1, together.parts[0]), f"why: {told} {again}")

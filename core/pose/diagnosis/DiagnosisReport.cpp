@@ -351,8 +351,7 @@ std::string adviceOf(const Diagnosis& diagnosis, const DetectionSettings& detect
       return "Search in a smaller region (Region), or for all types of part in the bin together.";
     default: // MovedAway
       return "Raise ReferenceShare: more candidates start near it. If that does not help, compare a length of the part "
-             "in "
-             "the scan and in the CAD file.";
+             "in the scan and in the CAD file.";
   }
 }
 

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 
 namespace meam
 {
@@ -242,7 +243,10 @@ PreparedScan prepareScan(OrganizedCloud scan, Image image, const std::optional<S
   else
   {
     result.isAsGiven = false;
-    const FoundView found = findView(scan.points, sensor, result.report);
+    Points measured; // samples of all points may be just those that are not
+    std::copy_if(scan.points.begin(), scan.points.end(), std::back_inserter(measured),
+      [](const Eigen::Vector3f& point) { return point.allFinite(); });
+    const FoundView found = findView(measured, sensor, result.report);
     viewpoint = found.viewpoint;
     result.isViewpointGuessed = found.isGuessed;
     scan.points = moved(scan.points, viewpoint.T_sensor_scan);

@@ -42,6 +42,8 @@ TEST(ScanAdvice, ThereMayBeMoreWhereAsManyAreThereAsWereAskedFor)
   EXPECT_EQ(meam::scanAdvice(goodScan(), report, { claimed(0.9, 1.0), claimed(0.2, 1.0) }, 100.0), "");
   report.maximumPoses = 0;
   EXPECT_EQ(meam::scanAdvice(goodScan(), report, { claimed(0.9, 1.0), claimed(0.8, 1.0) }, 100.0), "");
+  EXPECT_EQ(meam::scanAdvice(goodScan(), report, { claimed(0.2, 1.0) }, 100.0), "")
+    << "nor where all were, and none is likely";
 }
 
 TEST(ScanAdvice, WhatItRestsOnIsALine)

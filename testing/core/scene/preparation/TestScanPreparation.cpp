@@ -244,6 +244,17 @@ TEST(ScanPreparation, thePixelsOfPointsAloneAreFoundAgain)
   }
 }
 
+TEST(ScanPreparation, whichOfPointsAloneWereNotMeasuredDoesNotMatter)
+{
+  meam::OrganizedCloud points = shuffled(boxOnFloor());
+  for (std::size_t k = 0; k < points.points.size(); k += 3) // every sample at a step of 3 would be one of these
+  {
+    points.points[k].setConstant(std::numeric_limits<float>::quiet_NaN());
+  }
+  const meam::PreparedScan scan = prepared(points);
+  EXPECT_TRUE(says(scan, "the grid of a pinhole camera (300.0 pixels")) << scan.report;
+}
+
 TEST(ScanPreparation, thePixelsOfPointsAloneAreFoundAgainAlongAnyAxis)
 {
   for (const Eigen::Matrix3f& R_scan_sensor :
