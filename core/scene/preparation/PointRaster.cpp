@@ -32,9 +32,14 @@ Eigen::AlignedBox2d reachOf(const Points& points, const RasterView& view)
 {
   std::array<std::vector<double>, 2> places;
   const std::size_t stride = std::max<std::size_t>(1, points.size() / ReachSamples);
-  for (std::size_t i = 0; i < points.size(); i += stride)
+  std::size_t measured = 0; // gaps may come as regularly as samples of all would
+  for (const Eigen::Vector3f& point : points)
   {
-    const Eigen::Vector2d place = view.lookAt(points[i]);
+    if (!point.allFinite() || measured++ % stride != 0)
+    {
+      continue;
+    }
+    const Eigen::Vector2d place = view.lookAt(point);
     for (int k = 0; place.allFinite() && k < 2; ++k)
     {
       places[k].push_back(place[k]);

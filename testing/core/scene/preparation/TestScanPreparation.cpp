@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "scene/preparation/PointRaster.h"
 #include "scene/preparation/ScanPreparation.h"
 
 #include "TestFiles.h"
@@ -244,15 +245,25 @@ TEST(ScanPreparation, thePixelsOfPointsAloneAreFoundAgain)
   }
 }
 
-TEST(ScanPreparation, whichOfPointsAloneWereNotMeasuredDoesNotMatter)
+TEST(ScanPreparation, howFarPointsReachIsToldWhicheverWereNotMeasured)
 {
-  meam::OrganizedCloud points = shuffled(boxOnFloor());
-  for (std::size_t k = 0; k < points.points.size(); k += 3) // every sample at a step of 3 would be one of these
+  constexpr int side = 300;
+  meam::Points points;
+  for (int k = 0; k < side * side; ++k) // every third, or fourth, is looked at; these may be those that are missing
   {
-    points.points[k].setConstant(std::numeric_limits<float>::quiet_NaN());
+    points.emplace_back(static_cast<float>(k % side), static_cast<float>(k / side), 500.0f);
   }
-  const meam::PreparedScan scan = prepared(points);
-  EXPECT_TRUE(says(scan, "the grid of a pinhole camera (300.0 pixels")) << scan.report;
+  for (const int gap : { 3, 4 })
+  {
+    meam::Points measured = points;
+    for (std::size_t k = 0; k < measured.size(); k += gap)
+    {
+      measured[k].setConstant(std::numeric_limits<float>::quiet_NaN());
+    }
+    const Eigen::AlignedBox2d reach = meam::reachOf(measured, { false });
+    EXPECT_LT(reach.min().norm(), 5.0) << gap;
+    EXPECT_GT(reach.max().minCoeff(), side - 6.0) << gap;
+  }
 }
 
 TEST(ScanPreparation, thePixelsOfPointsAloneAreFoundAgainAlongAnyAxis)
