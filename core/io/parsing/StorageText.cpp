@@ -2,7 +2,6 @@
 #include "io/parsing/StorageText.h"
 
 #include "base/Error.h"
-#include "io/parsing/FileBytes.h"
 #include "io/parsing/JSONFile.h"
 #include "io/parsing/TextLines.h"
 #include "io/parsing/YAMLFile.h"
@@ -120,9 +119,7 @@ nlohmann::json parseStorage(const std::string& path, const std::string& text)
   {
     failStorage(path, "is empty");
   }
-  const std::string extension = extensionOf(path);
-  const bool isJSON = bare[0] == '{' && extension != ".yaml" && extension != ".yml"; // YAML has such mappings, too
-  return bare[0] == '<' ? valuesInXML(path, text) : isJSON ? parseJSON(path, text) : parseYAML(path, text);
+  return bare[0] == '<' ? valuesInXML(path, text) : bare[0] == '{' ? parseJSON(path, text) : parseYAML(path, text);
 }
 
 std::vector<double> numbersOfMatrix(const nlohmann::json& value, const std::string& path, const std::string& what)

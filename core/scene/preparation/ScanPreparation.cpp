@@ -243,10 +243,14 @@ PreparedScan prepareScan(OrganizedCloud scan, Image image, const std::optional<S
   else
   {
     result.isAsGiven = false;
+    const auto isMeasured = [](const Eigen::Vector3f& point) { return point.allFinite(); };
     Points measured; // samples of all points may be just those that are not
-    std::copy_if(scan.points.begin(), scan.points.end(), std::back_inserter(measured),
-      [](const Eigen::Vector3f& point) { return point.allFinite(); });
-    const FoundView found = findView(measured, sensor, result.report);
+    if (!std::all_of(scan.points.begin(), scan.points.end(), isMeasured))
+    {
+      measured.reserve(std::count_if(scan.points.begin(), scan.points.end(), isMeasured));
+      std::copy_if(scan.points.begin(), scan.points.end(), std::back_inserter(measured), isMeasured);
+    }
+    const FoundView found = findView(measured.empty() ? scan.points : measured, sensor, result.report);
     viewpoint = found.viewpoint;
     result.isViewpointGuessed = found.isGuessed;
     scan.points = moved(scan.points, viewpoint.T_sensor_scan);

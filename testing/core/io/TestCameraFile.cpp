@@ -54,18 +54,6 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 }
 }
 
-TEST(CameraFile, aMappingInBracesIsYAML)
-{
-  const std::string flow = "{fx: 572.41, fy: 573.57, cx: 325.26, cy: 242.05, width: 640, height: 480, depth_scale: .1}";
-  for (const char* name : { "camera.yaml", "camera.YML" })
-  {
-    const meam::CameraFile file = files::Reader{ meam::readCamera, name }(flow);
-    EXPECT_EQ(file.camera.fx, 572.41);
-    EXPECT_EQ(file.camera.height, 480);
-  }
-  files::Reader{ meam::readCamera, "camera.json" }.fails(flow, "is not JSON");
-}
-
 TEST(CameraFile, everyForm)
 {
   using Lens = std::array<double, 8>;
