@@ -49,6 +49,7 @@ public:
 
     /// Of the edges; made when it is first asked for, as of few directions it is. Calls may run in parallel.
     const PointGrid& edgeGrid() const;
+    // What edgeGrid() makes it of, and keeps; ask it, not these.
     float cellOfGrid; ///< mm
     mutable std::shared_ptr<const PointGrid> grid;
   };

@@ -32,7 +32,7 @@ vtkStandardNewMacro(vtkMEAMPoseDiagnosis);
 namespace
 {
 const char* const StateNames[] = { "explained", "turned", "hidden", "not measured", "seen past" };
-const char* const MissingName = "missing"; // of an edge point that the sensor did not see past, but no edge
+const char* const MissingName = "missing"; // of an edge point where there is no edge
 
 /// As the array `Residual` has them: those of states, of edge points of which there is no edge, and of the scan beside
 /// the part.
