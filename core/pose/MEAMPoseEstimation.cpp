@@ -85,7 +85,7 @@ Poses rankCandidates(Poses candidates, const Scene& scene, const TrainedModel& m
   DetectionReport unused;
   PoseSearch search(scene, model, settings, report ? *report : unused, observer);
   search.rank(std::move(candidates), 0, subProgress(progress, 0.0, Searches));
-  return search.select(selectionOf(settings), subProgress(progress, Searches, 1.0));
+  return search.selectWanted(selectionOf(settings), subProgress(progress, Searches, 1.0));
 }
 
 Poses findPoses(const Scene& scene, const TrainedModel& model, const DetectionSettings& settings,
@@ -100,7 +100,7 @@ Poses findPoses(const Scene& scene, const TrainedModel& model, const DetectionSe
       told.isCutShort = !isDoneBy(ofVotes, [&] { search.upTo(share, wanted, ofVotes.within(ofShare)); });
       return told.isCutShort || (wanted > 0 && search.sure() >= wanted);
     });
-  const Poses poses = search.select(selectionOf(settings), subProgress(progress, Searches, 1.0));
+  const Poses poses = search.selectWanted(selectionOf(settings), subProgress(progress, Searches, 1.0));
   told.isCutShort = told.isCutShort || settings.deadline.hasStruck();
   told.maximumPoses = settings.selection.maximumPoses;
   return poses;

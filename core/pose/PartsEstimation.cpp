@@ -22,8 +22,6 @@ constexpr double Voted = 0.75; // of the progress: up to refined poses
 
 bool isSure(const Pose& pose) { return pose.placeProbability >= 1.0 / (1.0 + std::exp(-SureLogOdds)); }
 
-int sureOf(const Poses& poses) { return static_cast<int>(std::count_if(poses.begin(), poses.end(), isSure)); }
-
 /// The types of part in a scene, and what was found of each.
 class PartsSearch
 {
@@ -89,6 +87,16 @@ public:
 private:
   static double shareOf(std::size_t k, std::size_t count) { return static_cast<double>(k) / count; }
 
+  bool isWanted(const PartPose& one) const { return this->Types[one.part]->isWanted(one.pose); }
+
+  /// Of the type's copies that are wanted, those that are sure.
+  int sureOf(int part) const
+  {
+    const Poses& found = this->Found[part];
+    return static_cast<int>(std::count_if(
+      found.begin(), found.end(), [&](const Pose& pose) { return isSure(pose) && this->Types[part]->isWanted(pose); }));
+  }
+
   /// Types in turn by so many of their reference points, until together enough copies are as good as found; 0: all.
   void upTo(double share, const std::vector<int>& parts, int wanted, const Deadline& deadline, const Progress& progress)
   {
@@ -117,12 +125,12 @@ private:
   std::vector<int> withMore() const
   {
     std::vector<int> parts;
-    for (std::size_t part = 0; part < this->Found.size(); ++part)
+    for (int part = 0; part < static_cast<int>(this->Found.size()); ++part)
     {
       const int enough = std::min(this->Wanted[part], this->Settings.selection.maximumPoses);
-      if (enough > 0 && sureOf(this->Found[part]) >= enough)
+      if (enough > 0 && this->sureOf(part) >= enough)
       {
-        parts.push_back(static_cast<int>(part));
+        parts.push_back(part);
       }
     }
     return parts;
@@ -149,7 +157,7 @@ private:
       selection.deadline = this->Settings.deadline.after(shareOf(1, count - k));
       this->Found[part] =
         this->Types[part]->select(selection, subProgress(progress, shareOf(k, count + 1), shareOf(k + 1, count + 1)));
-      this->Sure[part] = sureOf(this->Found[part]);
+      this->Sure[part] = this->sureOf(part);
     }
     this->Told.isCutShort = this->Told.isCutShort || this->Settings.deadline.hasStruck();
     Stopwatch watch;
@@ -158,10 +166,12 @@ private:
         return PartDetections{ *this->Scenes[part], *this->Models[part], this->Found[part] };
       });
     ConflictResolutionSettings conflicts;
-    conflicts.maximumPoses = this->Told.maximumPoses = this->Settings.selection.maximumPoses;
     conflicts.threads = this->Settings.selection.threads;
     std::vector<PartPose> stay =
       resolveConflicts(detections, conflicts, subProgress(progress, shareOf(count, count + 1), 1.0));
+    eraseIf(stay, [this](const PartPose& one) { return !this->isWanted(one); });
+    const int asked = this->Told.maximumPoses = this->Settings.selection.maximumPoses;
+    stay.resize(asked > 0 ? std::min<std::size_t>(stay.size(), asked) : stay.size());
     for (PartPose& one : stay)
     {
       const Scene& scene = *this->Scenes[one.part];

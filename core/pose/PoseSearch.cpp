@@ -17,6 +17,7 @@ constexpr std::size_t RefinedOfCopy =
 constexpr std::size_t Growth = 2; // and then so many times as many, until enough copies are sure
 constexpr std::size_t Lot = 80;   // where all are wanted so many at a time, until a lot finds no further place,
 constexpr double Hopeful = -5.0;  // which is one by a refined pose with so much log odds: it may come to be right
+constexpr double Competes = 0.5;  // of the diameter: a copy whose middle is so far outside of a region reaches into it
 // Where few poses are asked for, of a bin full of parts, some of the reference points find enough that are sure: of all
 // of them so many vote first, others only where these do not do.
 constexpr double SharesOfReferences[] = { 0.06, 0.2, 1.0 };
@@ -66,7 +67,11 @@ void PoseSearch::upTo(double share, int wanted, const Progress& progress)
   }
   Poses candidates = this->Search->upTo(share, subProgress(progress, 0.0, 0.5));
   this->Told.work.references += this->Search->references() - votersBefore;
-  eraseIf(candidates, [this](const Pose& pose) { return this->isOutside(pose); });
+  if (const auto& region = this->Settings.region)
+  {
+    const double reach = Competes * this->Model.diameter;
+    eraseIf(candidates, [&](const Pose& pose) { return !region->isNear(this->middleInScan(pose), reach); });
+  }
   this->Told.times.detection += watch.lap();
   this->rank(std::move(candidates), wanted, subProgress(progress, 0.5, 1.0));
 }
@@ -145,7 +150,7 @@ int PoseSearch::places(double leastLogOdds) const
   {
     const auto isOf = [&](const Pose* other)
     { return translationError(pose.T_scene_model, other->T_scene_model, middle) < apart; };
-    if (pose.evidence >= leastLogOdds && std::none_of(found.begin(), found.end(), isOf))
+    if (pose.evidence >= leastLogOdds && this->isWanted(pose) && std::none_of(found.begin(), found.end(), isOf))
     {
       found.push_back(&pose);
     }
@@ -157,6 +162,10 @@ Poses PoseSearch::select(PoseSelectionSettings selection, const Progress& progre
 {
   this->returned(PoseStage::Verification, this->Verified);
   selection.evidence.rates = this->Rates;
+  if (this->Settings.region)
+  {
+    selection.isWanted = [this](const Pose& pose) { return this->isWanted(pose); };
+  }
   Stopwatch watch;
   this->Told.work.selected += static_cast<int>(this->Verified.size());
   const Poses poses = selectPoses(this->Verified, this->InScene, this->Model, selection, progress);
@@ -172,6 +181,13 @@ Poses PoseSearch::select(PoseSelectionSettings selection, const Progress& progre
   return poses;
 }
 
+Poses PoseSearch::selectWanted(const PoseSelectionSettings& selection, const Progress& progress)
+{
+  Poses poses = this->select(selection, progress);
+  eraseIf(poses, [this](const Pose& pose) { return !this->isWanted(pose); });
+  return poses;
+}
+
 void PoseSearch::returned(PoseStage stage, const Poses& poses)
 {
   if (this->Observer)
@@ -180,10 +196,14 @@ void PoseSearch::returned(PoseStage stage, const Poses& poses)
   }
 }
 
-bool PoseSearch::isOutside(const Pose& pose) const
+Eigen::Vector3d PoseSearch::middleInScan(const Pose& pose) const
 {
   const Eigen::Vector3d middle = this->Model.visibility->middle().cast<double>();
-  const Eigen::Isometry3d T_scene_local = this->InScene.T_local_scene().inverse();
-  return this->Settings.region && !this->Settings.region->contains(T_scene_local * pose.T_scene_model * middle);
+  return this->InScene.T_local_scene().inverse() * pose.T_scene_model * middle;
+}
+
+bool PoseSearch::isWanted(const Pose& pose) const
+{
+  return !this->Settings.region || this->Settings.region->contains(this->middleInScan(pose));
 }
 }

@@ -27,18 +27,24 @@ public:
   /// The same with candidates from elsewhere.
   void rank(Poses candidates, int wanted, const Progress& progress = {});
 
-  /// How many copies are as good as found.
+  /// How many copies in the region are as good as found.
   int sure() const;
 
-  /// Ranked poses, one of each instance, by the scan's own rates.
+  /// Whether its middle lies in the region that is searched.
+  bool isWanted(const Pose& pose) const;
+
+  /// Ranked poses, one of each instance, by the scan's own rates, with those outside of the region that compete with
+  /// the others.
   Poses select(PoseSelectionSettings selection, const Progress& progress = {});
+  /// Without those.
+  Poses selectWanted(const PoseSelectionSettings& selection, const Progress& progress = {});
 
 private:
-  /// How many places have a refined pose with so much log odds.
+  /// How many places in the region have a refined pose with so much log odds.
   int places(double leastLogOdds) const;
 
   void returned(PoseStage stage, const Poses& poses);
-  bool isOutside(const Pose& pose) const;
+  Eigen::Vector3d middleInScan(const Pose& pose) const;
 
   const Scene& InScene;
   const TrainedModel& Model;

@@ -117,6 +117,9 @@ TEST(API, OfARegionThePartsThatLieInIt)
   const std::vector<Eigen::Vector3d> one = sure();
   ASSERT_EQ(one.size(), 1u);
   EXPECT_LT((one[0] - all[1]).norm(), 0.5);
+  // Its border cuts the copy: the middle lies outside, and no other pose takes the surface inside.
+  scan.region.box.min().x() = all[1].x() + 1.0;
+  EXPECT_TRUE(sure().empty());
   scan.region = { {}, { 1, 0 } };
   EXPECT_TRUE(files::contains(files::errorOf([&] { sure(); }), "2 pixels"));
 }

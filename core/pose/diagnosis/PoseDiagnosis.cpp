@@ -25,11 +25,12 @@ constexpr double LookedFor = 0.5;     // of the diameter: points this near to a 
 constexpr PlaceTolerance SameResult{ 1e-3, 1e-2 }; // mm and degrees, of a search that is run again
 constexpr int PeaksLookedFor = 3; // candidates of each of them, when a place is looked for by a picked point
 
-/// The settings without a limit on what comes out.
+/// The settings without a limit on what comes out, or where.
 DetectionSettings withoutLimits(DetectionSettings settings)
 {
   settings.selection.maximumPoses = 0;
   settings.selection.minimumProbability = 0.0;
+  settings.region = nullptr;
   return settings;
 }
 

@@ -153,7 +153,8 @@ FinishedInstances InstanceFinishing::finished(
       {
         const Eigen::Isometry3d& T = instance.pose.T_scene_model;
         sure.push_back({ T, instance.logOdds, this->Claims.of(T) });
-        enough += instance.pose.certainty >= SureRotation ? 1 : 0;
+        const bool isWanted = !this->Settings.isWanted || this->Settings.isWanted(instance.pose);
+        enough += isWanted && instance.pose.certainty >= SureRotation ? 1 : 0;
       }
       fruitless = isSure ? 0 : fruitless + 1;
     }

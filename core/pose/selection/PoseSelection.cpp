@@ -132,7 +132,14 @@ Poses withinLimits(Poses poses, const PoseSelectionSettings& settings)
 {
   eraseIf(
     poses, [&](const Pose& pose) { return claimOf(pose, settings.rotationCounts) < settings.minimumProbability; });
-  poses.resize(settings.maximumPoses > 0 ? std::min<std::size_t>(poses.size(), settings.maximumPoses) : poses.size());
+  int wanted = 0;
+  const auto isEnough = [&](const Pose& pose)
+  {
+    wanted += !settings.isWanted || settings.isWanted(pose) ? 1 : 0;
+    return wanted == settings.maximumPoses;
+  };
+  const auto last = settings.maximumPoses > 0 ? std::find_if(poses.begin(), poses.end(), isEnough) : poses.end();
+  poses.erase(last == poses.end() ? last : std::next(last), poses.end());
   return poses;
 }
 

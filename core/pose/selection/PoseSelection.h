@@ -8,6 +8,8 @@
 #include "pose/selection/PoseComparison.h"
 #include "pose/verification/PoseEvidence.h"
 
+#include <functional>
+
 namespace meam
 {
 enum class SelectionMethod
@@ -26,6 +28,7 @@ struct PoseSelectionSettings
   int maximumPoses = 0;            ///< of all the best; 0: no limit, or of Alternatives those that are worth refining
   double minimumProbability = 0.0; ///< of what comes out, poses are dropped where a copy is less likely,
   bool rotationCounts = false;     ///< or, counting its rotation, the pose is
+  std::function<bool(const Pose&)> isWanted; ///< others compete with those that are, and count for none; empty: all are
   // Instances
   bool dropsShared = true;       ///< poses whose surface better ones have
   bool excludesOverlaps = true;  ///< of poses that cut into each other one is right at most
@@ -49,7 +52,7 @@ PoseSelectionSettings candidateSelectionSettings();
 Poses selectClusters(
   const Poses& scored, const TrainedModel& model, const PoseSelectionSettings& settings, const Progress& progress = {});
 
-/// Of selected poses, best first, those that are likely enough, no more than are wanted.
+/// Of selected poses, best first, those that are likely enough, up to the last of the maximum number of those wanted.
 Poses withinLimits(Poses poses, const PoseSelectionSettings& settings);
 
 /// Of scored poses, best first (verifyPoses), those that stay, best first, in the local frame.

@@ -143,21 +143,24 @@ GridScale gridScale(const OrganizedCloud& cloud, int threads)
   std::vector<float> bends;
   distances.reserve(2 * static_cast<std::size_t>(Samples));
   bends.reserve(2 * static_cast<std::size_t>(Samples));
-  const int stride = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(cloud.size()) / Samples)));
-  for (int row = 0; row < cloud.height; row += std::max(stride, 1))
+  const int stride = std::max(static_cast<int>(std::ceil(std::sqrt(static_cast<double>(cloud.size()) / Samples))), 1);
+  for (int first = 0; first < stride && bends.empty(); ++first) // just these rows may be without measured neighbours
   {
-    const Eigen::Vector3f* points = cloud.points.data() + static_cast<std::size_t>(row) * cloud.width;
-    for (int column = 1; column < cloud.width; column += std::max(stride, 1))
+    for (int row = first; row < cloud.height; row += stride)
     {
-      const Eigen::Vector3f step = points[column] - points[column - 1];
-      if (!step.allFinite())
+      const Eigen::Vector3f* points = cloud.points.data() + static_cast<std::size_t>(row) * cloud.width;
+      for (int column = 1; column < cloud.width; column += stride)
       {
-        continue;
-      }
-      distances.push_back(step.head<2>().norm());
-      if (column + 1 < cloud.width && points[column + 1].allFinite())
-      {
-        bends.push_back(std::abs(points[column + 1].z() - points[column].z() - step.z()));
+        const Eigen::Vector3f step = points[column] - points[column - 1];
+        if (!step.allFinite())
+        {
+          continue;
+        }
+        distances.push_back(step.head<2>().norm());
+        if (column + 1 < cloud.width && points[column + 1].allFinite())
+        {
+          bends.push_back(std::abs(points[column + 1].z() - points[column].z() - step.z()));
+        }
       }
     }
   }

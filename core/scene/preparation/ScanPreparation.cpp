@@ -91,6 +91,14 @@ std::string placeOf(const Sensor& sensor)
   return sensor.perspective ? " (" + number(0) + ", " + number(1) + ", " + number(2) + ")" : "";
 }
 
+/// Of a given viewpoint, by the place that hides far fewer of the points, if there is one (searchViewpoint).
+std::string doubtOfViewpoint(const std::optional<Sensor>& better)
+{
+  return better ? "From the given viewpoint many points hide others, and few from" + placeOf(*better) +
+                    ": check the unit of the viewpoint, and its frame."
+                : "";
+}
+
 /// A lattice tells where the sensor is: that of the likeliest place, unless points are nearer to that of another. A
 /// flat floor and the middles of voxels are about on those of others, too.
 std::optional<FoundView> findGrid(const Points& scan, const std::vector<ScanViewpoint>& viewpoints)
@@ -142,11 +150,7 @@ FoundView findView(const Points& scan, const std::optional<Sensor>& sensor, std:
   appendSentence(report, "The points are not organized, and lie on no grid: they are looked at by a virtual camera, " +
                            (sensor ? given : likeliest.report) + ", with pixels that they fill." +
                            (sensor ? "" : " Where the sensor stood elsewhere, give its viewpoint.") + LeftHanded);
-  if (better && sensor)
-  {
-    appendSentence(report, "From the given viewpoint many points hide others, and few from" + placeOf(*better) +
-                             ": check the unit of the viewpoint, and its frame.");
-  }
+  appendSentence(report, doubtOfViewpoint(sensor ? better : std::nullopt));
   return { likeliest, viewThatPointsFill(moved(scan, likeliest.T_sensor_scan), likeliest.perspective), !sensor };
 }
 
@@ -227,6 +231,7 @@ PreparedScan prepareScan(OrganizedCloud scan, Image image, const std::optional<S
   if (isOrganized)
   {
     viewpoint = sensor ? viewpointOf(*sensor) : viewpointOfGrid(scan);
+    const std::string doubt = sensor ? doubtOfViewpoint(searchViewpoint(scan.points, *sensor)) : "";
     if (!viewpoint.T_sensor_scan.matrix().isIdentity(0.0))
     {
       scan.points = moved(scan.points, viewpoint.T_sensor_scan);
@@ -238,6 +243,7 @@ PreparedScan prepareScan(OrganizedCloud scan, Image image, const std::optional<S
     }
     result.isAsGiven = result.report.empty() && viewpoint.T_sensor_scan.matrix().isIdentity(0.0);
     appendSentence(result.report, viewpoint.report);
+    appendSentence(result.report, doubt);
     raster = rasterOf(scan);
   }
   else

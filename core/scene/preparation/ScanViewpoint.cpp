@@ -24,6 +24,7 @@ const double WidestView = std::cos(M_PI / 3.0); // and how far it sees beside it
 constexpr double MostOff = 0.02;          // of the width, root mean square, that pixels are off a pinhole camera's
 constexpr double Worse = 3.0;             // times as far off as from another place: that is the sensor's,
 constexpr double Exact = 0.05;            // pixels, or no farther off than rounded coordinates are
+constexpr double AsideOfMiddle = 0.12;    // of the width, right or left and up or down: no camera's axis goes there
 constexpr double StrayDirections = 0.001; // share of the points that may lie elsewhere
 constexpr std::size_t DirectionSamples = 20000; // points that are looked at, spread evenly
 
@@ -91,6 +92,7 @@ struct OriginView
 {
   Eigen::Vector3d forward;
   Eigen::Vector3d right = Eigen::Vector3d::Zero();      ///< the axis that columns go along most
+  Eigen::Vector2d axis = Eigen::Vector2d::Zero();       ///< where it meets the grid, in widths from the middle
   double off = std::numeric_limits<double>::infinity(); ///< widths of the grid, root mean square
   bool isMirrored = false;                              ///< rows run backwards
   bool isAllAhead = false;                              ///< but for strays
@@ -121,6 +123,7 @@ OriginView viewFromOrigin(const std::vector<GridSample>& samples, const Eigen::V
   const Eigen::Matrix<double, 3, 2> fit = sum.ldlt().solve(ofPixels);
   const double off = (squares - fit.transpose() * ofPixels).trace() / static_cast<double>(ahead);
   view.off = std::sqrt(std::max(off, 0.0));
+  view.axis = fit.transpose() * forward;
   const Eigen::Vector3d column = fit.col(0) - fit.col(0).dot(forward) * forward;
   Eigen::Index number = 0;
   column.cwiseAbs().maxCoeff(&number);
@@ -155,6 +158,19 @@ std::string placeText(const Eigen::Vector3d& place, const char* form)
   return text;
 }
 
+void tellOfAxis(std::string& report, const Eigen::Vector2d& axis)
+{
+  if ((axis.array().abs() > AsideOfMiddle).all())
+  {
+    const auto percent = [](double share) { return std::to_string(std::lround(100.0 * std::abs(share))) + " %"; };
+    appendSentence(report,
+      "The sensor's axis goes through its image " + percent(axis.x()) + " of the width " +
+        (axis.x() < 0.0 ? "left" : "right") + " of the middle and " + percent(axis.y()) + " " +
+        (axis.y() < 0.0 ? "above" : "below") +
+        " it: unless the scan was cropped, its camera matrix is that of another image size, and shapes are distorted.");
+  }
+}
+
 void tellOfMirror(std::string& report)
 {
   appendSentence(report,
@@ -180,6 +196,7 @@ ScanViewpoint viewpointAtOrigin(const OriginView& view)
                     (view.forward == -Eigen::Vector3d::UnitZ() ? ", as OpenGL has it" : "") +
                     ": it was turned to be seen along +z; poses are in the scan's own axes.";
   }
+  tellOfAxis(result.report, view.axis);
   if (view.isMirrored)
   {
     tellOfMirror(result.report);

@@ -137,6 +137,22 @@ bool SearchRegion::contains(const Eigen::Vector3d& place) const
   return (this->Box.isEmpty() || this->Box.contains(place)) && this->isInMask(place);
 }
 
+bool SearchRegion::isNear(const Eigen::Vector3d& place, double distance) const
+{
+  if (!this->Box.isEmpty() && this->Box.exteriorDistance(place) > distance)
+  {
+    return false;
+  }
+  bool isSeen = false;
+  const Eigen::Isometry3d T_scan_sensor = this->T_sensor_scan.inverse();
+  for (int k = 0; k < 9 && !isSeen; ++k)
+  {
+    const Eigen::Vector3d aside = Eigen::Vector3d(k % 3 - 1, k / 3 - 1, 0.0).stableNormalized();
+    isSeen = this->isInMask(T_scan_sensor * (this->T_sensor_scan * place + distance * aside));
+  }
+  return isSeen;
+}
+
 void SearchRegion::crop(PreparedScan& scan, double margin) const
 {
   const Eigen::AlignedBox3d box = grown(this->Box, margin);

@@ -22,6 +22,8 @@ public:
   /// `place`: in the scan's own coordinates. By a mask it does as the measured point does that the sensor sees next to
   /// it.
   bool contains(const Eigen::Vector3d& place) const;
+  /// Whether it contains the place, or one so far from it (mm): of a mask, one of eight that the sensor sees around it.
+  bool isNear(const Eigen::Vector3d& place, double distance) const;
 
   /// Leaves of a scan what is in the region, and so far around it (mm) as shows where a part ends that reaches out of
   /// it. Throws Error when nothing of the scan lies there.

@@ -60,6 +60,10 @@ TEST(DetectionSteps, FoundEdgesAreOfAScan)
   meam::ScanSource source;
   source.cloud = grids::surface(
     40, 40, [](int column, int) { return column < 20 ? 500.0 : 480.0; }, 0.2);
+  for (Eigen::Vector3f& point : source.cloud.points)
+  {
+    point -= Eigen::Vector3f(19.5f, 19.5f, 0.0f); // the sensor looks at the middle
+  }
   const std::size_t count = source.cloud.points.size();
   source.measured = [&](const meam::LocalCloud&) { return meam::Points(count, Eigen::Vector3f::Zero()); };
   const auto [scene, region, found, report] = meam::sceneOfScan(source, {});

@@ -96,3 +96,12 @@ TEST(GridSurface, tooFewPointsAreNoPlane)
   EXPECT_FALSE(
     meam::fitPlane(grids::surface(9, 9, [](int x, int) { return x == 4 ? 1.0 : NAN; }), 4, 4, { 4, 4 }, 5.0).valid());
 }
+
+TEST(GridSurface, TheScaleIsToldWhereRegularPixelsWereNotMeasured)
+{
+  // So many pixels that one of three in a row, and of three rows, tells the scale: just these were not measured.
+  const meam::GridScale scale = meam::gridScale(grids::surface(
+    700, 700, [](int x, int y) { return x % 3 == 0 && y % 3 == 0 ? NAN : 500.0; }, 0.2));
+  EXPECT_NEAR(scale.noise, 0.2, 0.01);
+  EXPECT_GT(scale.pointDistance, 0.0);
+}

@@ -473,3 +473,27 @@ TEST(ScanPreparation, pointsOfNoSurfaceEndInAGridOrAnError)
     }
   }
 }
+
+TEST(ScanPreparation, ACameraMatrixOfAnotherImageSizeIsNamed)
+{
+  const auto reportOf = [](double cx, double cy)
+  {
+    const meam::Camera sensor = grids::camera(GridWidth, GridHeight, 300.0, cx, cy);
+    return meam::prepareScan(grids::measured(sensor, [](int, int) { return 600.0; }), {}, std::nullopt).report;
+  };
+  EXPECT_EQ(reportOf(61.3, 44.2), "");
+  EXPECT_EQ(reportOf(90.0, 44.2), "") << "aside in a row alone";
+  const std::string twice = reportOf(119.5, 89.5);
+  EXPECT_TRUE(files::contains(twice, "50 % of the width right of the middle and 37 % below it")) << twice;
+  EXPECT_TRUE(files::contains(twice, "another image size")) << twice;
+}
+
+TEST(ScanPreparation, AViewpointThatContradictsAnOrganizedScanIsNamed)
+{
+  const auto reportOf = [](const Eigen::Vector3d& position) {
+    return meam::prepareScan(boxOnFloor(), {}, meam::Sensor{ true, position, {} }).report;
+  };
+  EXPECT_EQ(reportOf({ 0, 0, 0 }), "");
+  const std::string aside = reportOf({ 500, 0, 500 });
+  EXPECT_TRUE(files::contains(aside, "From the given viewpoint many points hide others")) << aside;
+}

@@ -48,6 +48,8 @@ TEST(SearchRegion, OfABoxWhatLiesInIt)
   EXPECT_TRUE(region.contains({ 9, 1, 5 }));
   EXPECT_FALSE(region.contains({ 11, 1, 5 }));
   EXPECT_FALSE(region.contains({ 9, 1, 1001 }));
+  EXPECT_TRUE(region.isNear({ 11, 1, 5 }, 2.0));
+  EXPECT_FALSE(region.isNear({ 11, 21, 5 }, 1.4)) << "from the corner, which is sqrt(2) away";
 }
 
 TEST(SearchRegion, AScanIsCroppedToItAndItsMargin)
@@ -75,6 +77,8 @@ TEST(SearchRegion, OfAMaskWhatTheSensorSeesInIt)
   EXPECT_TRUE(region.contains(seen));
   EXPECT_TRUE(region.contains(1.1 * seen)) << "behind the surface";
   EXPECT_FALSE(region.contains(seen + Eigen::Vector3d(13, 0, 0)));
+  EXPECT_TRUE(region.isNear(seen + Eigen::Vector3d(13, 0, 0), 5.0));
+  EXPECT_FALSE(region.isNear(seen + Eigen::Vector3d(17, 0, 0), 5.0));
   EXPECT_FALSE(region.contains({ 500, 500, 300 })) << "out of sight";
   region.crop(scan, 4.0);
   EXPECT_EQ(scan.cloud.width, 28);
