@@ -272,6 +272,13 @@ std::string lensModelOf(const nlohmann::json& entries)
 /// Fails for a camera that is no pinhole, whatever its coefficients are.
 void requirePinhole(const std::string& path, const nlohmann::json& entries)
 {
+  for (const char* name : { "xi", "alpha", "skew" }) // of omnidirectional lenses, and of rows that are not upright
+  {
+    if (const auto number = find(path, entries, { name }, 1, 1); !number.empty() && number.front() != 0.0)
+    {
+      failLens(path, name);
+    }
+  }
   if (const auto fisheye = find(path, entries, { "fisheye_model" }, 1, 1); !fisheye.empty() && fisheye.front() != 0.0)
   {
     failLens(path, "fisheye"); // OpenCV's
@@ -331,6 +338,14 @@ std::array<double, 8> coefficientsOf(
   {
     failCamera(path, "has " + std::to_string(numbers.size()) + " numbers of its lens's distortion instead of " +
                        (isRational ? "8: k1 k2 p1 p2 k3 k4 k5 k6" : "4 or 5: k1 k2 p1 p2 k3"));
+  }
+  constexpr std::size_t most = 5; // of a lens that is named as Brown's
+  if (isBrown && !model.empty() && model != "pinhole" &&
+      std::any_of(numbers.begin() + static_cast<std::ptrdiff_t>(std::min(most, numbers.size())), numbers.end(),
+        [](double number) { return number != 0.0; }))
+  {
+    failCamera(path, "has " + std::to_string(numbers.size()) + " numbers of its lens's distortion, and its model, " +
+                       model + ", takes 4 or 5: name it rational_polynomial if k4 k5 k6 are meant");
   }
   for (std::size_t i = 0; i < numbers.size(); ++i)
   {

@@ -118,6 +118,10 @@ TEST(CameraFile, lensesOfROS)
   readCamera.fails(text("equidistant", "0.1, 0, 0, 0"), "a lens of the model 'equidistant', which is not read");
   readCamera.fails(text("rational_polynomial", "1, 2, 3, 4, 5"), "5 numbers of its lens's distortion instead of 8");
   readCamera.fails(text("plumb_bob", "1, 2"), "2 numbers");
+  readCamera.fails(text("plumb_bob", "1, 0, 0, 0, 0, 1, 0, 0"), "name it rational_polynomial");
+  EXPECT_EQ(readCamera(text("plumb_bob", "1, 2, 3, 4, 5, 0, 0, 0")).camera.distortion,
+    (std::array<double, 8>{ 1, 2, 3, 4, 5 }));
+  readCamera.fails(text("plumb_bob", "0, 0, 0, 0, 0") + "\nxi: 0.5", "a lens of the model 'xi', which is not read");
   // camera_info, with a rectification R and no T.
   const meam::Camera info =
     readCamera("height: 480\nwidth: 640\ndistortion_model: plumb_bob\nD: [0.1, 0, 0, 0, 0]\nK: "
