@@ -22,6 +22,7 @@ import benchmarks
 import calibration
 import cells
 import good_scans
+import megapixels
 import models
 import page
 import paper
@@ -169,6 +170,10 @@ def of_scans():
     return [{"part": name, **row} for name in ("ridged_disc", "hole_plate") for row in good_scans.measure(BIN_PARTS[name][0])]
 
 
+def of_pixels():
+    return [{"part": name, **row} for name in ("hole_plate", "ridged_disc") for row in megapixels.measure(BIN_PARTS[name][0], seed=5201)]
+
+
 def rings():
     return [real_scans.rings(DATA, edges, 20)
             for edges in (("image",), ("image", "depth"), ("image", "depth", "creases"), ("depth", "creases"))]
@@ -193,6 +198,7 @@ MEASURED = {  # name: the heading, what makes it, whether it takes a few minutes
     "known": ("Real scans of other sensors", lambda: real_scans.known(DATA), True),
     "robustness": ("Noise and image quality in simulated bins", robust, False),
     "good-scans": ("Scans that shine, are exposed wrongly or have holes", of_scans, False),
+    "megapixels": ("Time by megapixels and threads", of_pixels, True),
     "resolution": ("How many pixels a part needs", lambda: resolution.measure(os.path.join(DATA, "scanner", "V2D63xModel.ply")),
                    False),
     "paper": ("The paper's own experiments", of_paper, False),
