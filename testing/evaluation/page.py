@@ -159,7 +159,7 @@ SECTIONS = {
 
 
 def stamp_of(names, tables):
-    return "; ".join("[{0}.csv](evaluation/{0}.csv), {date}, commit {commit}".format(name, **tables[name][0]) for name in names)
+    return "; ".join("[{0}.csv](evaluation/{0}.csv), {date}, {commit}".format(name, **tables[name][0]) for name in names)
 
 
 def page(folder, titles):
