@@ -118,6 +118,21 @@ std::string lowered(std::string_view word)
   return lower;
 }
 
+/// Goes over the name of a solid: to the end of its line, or to the first facet of a file in one line.
+bool isFacetBehindName(TextLines& lines)
+{
+  bool isFacet = false;
+  for (std::string word = lowered(lines.word()); !word.empty(); word = lowered(lines.word()))
+  {
+    if (isFacet && word == "normal")
+    {
+      return true;
+    }
+    isFacet = word == "facet";
+  }
+  return false;
+}
+
 TriangleMesh readTextSTL(const std::string& path, std::string_view text, const Progress& progress)
 {
   Points vertices;
@@ -145,12 +160,11 @@ TriangleMesh readTextSTL(const std::string& path, std::string_view text, const P
         }
         start = vertices.size();
       }
-      else if (word == "solid" || word == "endsolid") // a name follows
+      else if (word == "solid" || word == "endsolid")
       {
-        isWhole = word == "endsolid";
         solids += word == "solid";
-        hasEnds = hasEnds || isWhole;
-        break;
+        hasEnds = hasEnds || word == "endsolid";
+        isWhole = !isFacetBehindName(lines) && word == "endsolid";
       }
     }
   }
@@ -208,16 +222,15 @@ TriangleMesh readSTL(const std::string& path, const Progress& progress)
   return isText ? readTextSTL(path, text, progress) : readBinarySTL(path, bytes, progress);
 }
 
-/// The vertex that a corner names: "7", "7/1/2", or "-1" for the last one.
+/// The vertex that a corner names: "7", "7/1/2", or "-1" for the last one so far, of `vertices`. Others may follow.
 int cornerOf(const std::string& path, std::string_view word, int vertices)
 {
   int number = 0;
   const bool isNumber = parseNumber(word.substr(0, word.find('/')), number);
   const int corner = number > 0 ? number - 1 : vertices + number;
-  if (!isNumber || number == 0 || corner < 0 || corner >= vertices)
+  if (!isNumber || number == 0 || corner < 0)
   {
-    failMesh(
-      path, "has a face with the corner '" + std::string(word.substr(0, 40)) + "', which does not exist before it");
+    failMesh(path, "has a face with the corner '" + std::string(word.substr(0, 40)) + "', which does not exist");
   }
   return corner;
 }
@@ -246,27 +259,40 @@ TriangleMesh readOBJ(const std::string& path, const Progress& progress)
   std::string bytes = readText(path);
   joinContinuedLines(bytes);
   TriangleMesh mesh;
-  std::vector<int> corners;
+  std::vector<int> corners; // of all faces, each behind their number
   bool hasPatches = false;
   TextLines lines(bytes);
   for (std::size_t line = 0; lines.next(); ++line)
   {
     reportLine(progress, line, lines, bytes.size());
     const std::string_view word = lines.word();
-    if (word == "v")
+    if (word == "v" || word == "V")
     {
       mesh.vertices.push_back(pointOf(path, lines));
     }
-    else if (word == "f")
+    else if (word == "f" || word == "F" || word == "fo") // as old files call them
     {
-      corners.clear();
+      const std::size_t start = corners.size();
+      corners.push_back(0);
       for (std::string_view corner = lines.word(); !corner.empty(); corner = lines.word())
       {
         corners.push_back(cornerOf(path, corner, static_cast<int>(mesh.vertices.size())));
+        ++corners[start];
       }
-      addPolygon(corners, mesh);
     }
     hasPatches = hasPatches || word == "surf";
+  }
+  for (auto from = corners.begin(); from != corners.end();)
+  {
+    const auto to = from + 1 + *from;
+    const auto missing =
+      std::find_if(from + 1, to, [&](int corner) { return corner >= static_cast<int>(mesh.vertices.size()); });
+    if (missing != to)
+    {
+      failMesh(path, "has a face with the corner '" + std::to_string(*missing + 1) + "', which does not exist");
+    }
+    addPolygon({ from + 1, to }, mesh);
+    from = to;
   }
   if (mesh.triangles.empty() || hasPatches)
   {

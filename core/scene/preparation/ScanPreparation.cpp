@@ -21,11 +21,13 @@ constexpr double Filled = 0.6;   // and so many are enough of a coarser one
 constexpr int MostSteps = 16;    // that a grid is made coarser by; more leave nothing of its parts
 constexpr int FewestPoints = 20; // fewer are too few, however they lie
 constexpr double Finer = 0.5;    // of the pixels that points would fill if they lay evenly: where the search begins
-constexpr double PixelGrowth = 1.15;  // from one size of pixels to the next
-constexpr int MostSizes = 40;         // 1.15^40 is 270 times as large
-constexpr double OnGrid = 0.05;       // pixels that points are off their sensor's grid, on average, and no more,
-constexpr double GridRounding = 0.01; // and so few by the rounding of their coordinates;
-constexpr double Nearer = 3.0;        // off the grid from another place they are so many times as far
+constexpr double PixelGrowth = 1.15;     // from one size of pixels to the next
+constexpr int MostSizes = 40;            // 1.15^40 is 270 times as large
+constexpr double HiddenFromGuess = 0.02; // share of points alone that may lie behind others, and the guess stays,
+constexpr double HiddenByNoise = 0.06;   // or of an organized scan's, with steep walls: its viewpoint is no guess
+constexpr double OnGrid = 0.05;          // pixels that points are off their sensor's grid, on average, and no more,
+constexpr double GridRounding = 0.01;    // and so few by the rounding of their coordinates;
+constexpr double Nearer = 3.0;           // off the grid from another place they are so many times as far
 
 // What points alone do not tell, and parts that are their own mirror image would be found either way.
 constexpr const char* LeftHanded = " If their axes are left-handed, as Unity's, negate y.";
@@ -141,7 +143,7 @@ FoundView findView(const Points& scan, const std::optional<Sensor>& sensor, std:
     return *found;
   }
   ScanViewpoint likeliest = viewpoints.front();
-  const std::optional<Sensor> better = searchViewpoint(scan, sensorOf(likeliest));
+  const std::optional<Sensor> better = searchViewpoint(scan, sensorOf(likeliest), HiddenFromGuess);
   if (better && !sensor)
   {
     likeliest = viewpointOf(*better);
@@ -231,7 +233,7 @@ PreparedScan prepareScan(OrganizedCloud scan, Image image, const std::optional<S
   if (isOrganized)
   {
     viewpoint = sensor ? viewpointOf(*sensor) : viewpointOfGrid(scan);
-    const std::string doubt = sensor ? doubtOfViewpoint(searchViewpoint(scan.points, *sensor)) : "";
+    const std::string doubt = sensor ? doubtOfViewpoint(searchViewpoint(scan.points, *sensor, HiddenByNoise)) : "";
     if (!viewpoint.T_sensor_scan.matrix().isIdentity(0.0))
     {
       scan.points = moved(scan.points, viewpoint.T_sensor_scan);

@@ -27,7 +27,6 @@ constexpr double SearchStartsAway = 4.0; // of the sensor, times the points' roo
 constexpr double FirstPlaceStep = 0.3;   // of the distance, 17 degrees
 constexpr double LastPlaceStep = 0.02;   // 1 degree
 constexpr double MostHidden = 0.06;      // share of a sensor's own points, a few per cent by noise and steep walls
-constexpr double WellSeen = 0.02;        // a guess that hides no more may stay
 constexpr double AsFew = 0.002;          // share of the points, of those hidden from either side of flat parts
 constexpr double HidesMore = 2.0;        // times as many as from the place that was found: the guess is wrong
 
@@ -185,7 +184,7 @@ SeenPlace improvedPlace(const CentredPoints& points, SeenPlace best)
 }
 }
 
-std::optional<Sensor> searchViewpoint(const Points& points, const Sensor& guess)
+std::optional<Sensor> searchViewpoint(const Points& points, const Sensor& guess, double mayHide)
 {
   const CentredPoints from = centredPoints(points);
   if (!(from.extent > 0.0))
@@ -195,7 +194,7 @@ std::optional<Sensor> searchViewpoint(const Points& points, const Sensor& guess)
   Sensor there = guess;
   there.position -= from.middle;
   const double hidden = hiddenFrom(from, there);
-  if (hidden <= WellSeen)
+  if (hidden <= mayHide)
   {
     return std::nullopt;
   }

@@ -10,6 +10,7 @@ namespace meam
 {
 /// Where points alone were most likely seen from: a sensor measures what nothing hides, so that from its place the
 /// fewest points lie behind others. A perspective sensor that looks at their middle; none where hardly more do for
-/// `guess`, and where many do from everywhere, as of several views.
-std::optional<Sensor> searchViewpoint(const Points& points, const Sensor& guess);
+/// `guess`, and where many do from everywhere, as of several views. It is not looked for, which takes some hundred
+/// looks, where no more than a share of the points, `mayHide`, lie behind others for the guess.
+std::optional<Sensor> searchViewpoint(const Points& points, const Sensor& guess, double mayHide);
 }

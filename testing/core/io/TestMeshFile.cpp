@@ -263,10 +263,14 @@ TEST(MeshFile, TextSTLInAllFormsThatAreAbout)
   for (const std::string& form : { upper, replaced("solid", "Solid"), replaced("endsolid", "end solid"), returns,
          "\xef\xbb\xbf" + text, text + "\x1a", "\r\n " + text, text + "made by hand\n", "# made by hand\n" + text,
          text + std::string(100, '\0'), replaced("\nouter", " outer"), replaced("\nvertex", " vertex"),
-         replaced("endloop\nendfacet\n", "end loop end facet ") })
+         replaced("endloop\nendfacet\n", "end loop end facet "), replaced("\n", " "),
+         replaced("solid part\n", "solid a facet of a vertex\n") })
   {
     EXPECT_EQ(corners(read("a.stl", form)), corners(part)) << form.substr(0, 20);
   }
+  const std::string line = replaced("\n", " ");
+  EXPECT_EQ(read("a.stl", line + line).triangles.size(), 2 * part.triangles.size());
+  expectError("a.stl", line + line.substr(0, line.rfind("facet normal")), "does not end with endsolid");
   std::string low = "\xff\xfe", high = "\xfe\xff"; // UTF-16
   for (const char letter : text)
   {
@@ -332,11 +336,14 @@ TEST(MeshFile, FacesOfManyCornersAreCutInside)
     off += vertex + "\n";
   }
   for (const auto& [name, bytes] : { std::pair<std::string, std::string>{ "a.obj", obj + "f 1 2 3 \\\n 4 5 6\n" },
-         { "b.obj", obj + "f 1/1 2/2 3/3 \\\r\n4/4 5/5 6/6\r\n" }, { "a.ply", ply + "6 0 1 2 3 4 5\n" },
+         { "b.obj", obj + "f 1/1 2/2 3/3 \\\r\n4/4 5/5 6/6\r\n" }, { "c.obj", "F 1 2 3 4 5 6\n" + obj },
+         { "d.obj", obj + "fo -6 -5 -4 -3 -2 -1\n" }, { "a.ply", ply + "6 0 1 2 3 4 5\n" },
          { "a.off", off + "6 0 1 2 3 4 5\n" } })
   {
     const meam::TriangleMesh mesh = read(name, bytes);
     EXPECT_EQ(mesh.triangles.size(), 4u) << name;
     EXPECT_NEAR(parts::area(mesh), 5.0, 1e-6) << name;
   }
+  expectError("a.obj", obj + "f 1 2 7\n", "the corner '7', which does not exist");
+  expectError("a.obj", "f 1 2 -1\n" + obj, "the corner '-1', which does not exist");
 }
