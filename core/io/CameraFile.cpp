@@ -272,12 +272,18 @@ std::string lensModelOf(const nlohmann::json& entries)
 /// Fails for a camera that is no pinhole, whatever its coefficients are.
 void requirePinhole(const std::string& path, const nlohmann::json& entries)
 {
-  for (const char* name : { "xi", "alpha", "skew" }) // of omnidirectional lenses, and of rows that are not upright
+  const auto has = [&](const char* name)
   {
-    if (const auto number = find(path, entries, { name }, 1, 1); !number.empty() && number.front() != 0.0)
-    {
-      failLens(path, name);
-    }
+    const auto number = find(path, entries, { name }, 1, 1);
+    return !number.empty() && number.front() != 0.0;
+  };
+  if (has("xi") || has("beta"))
+  {
+    failLens(path, has("xi") ? "omni" : "eucm");
+  }
+  if (has("skew"))
+  {
+    failCamera(path, "has a skew, which is not read: calibrate with columns at right angles to rows");
   }
   if (const auto fisheye = find(path, entries, { "fisheye_model" }, 1, 1); !fisheye.empty() && fisheye.front() != 0.0)
   {

@@ -167,7 +167,7 @@ void tellOfAxis(std::string& report, const Eigen::Vector2d& axis)
       "The sensor's axis goes through its image " + percent(axis.x()) + " of the width " +
         (axis.x() < 0.0 ? "left" : "right") + " of the middle and " + percent(axis.y()) + " " +
         (axis.y() < 0.0 ? "above" : "below") +
-        " it: unless the scan was cropped, its camera matrix is that of another image size, and shapes are distorted.");
+        " it: unless the scan was cropped or is a height map, its camera matrix is that of another image size.");
   }
 }
 

@@ -26,7 +26,6 @@ constexpr int SearchStarts = 3;          // of the local search, from the best o
 constexpr double SearchStartsAway = 4.0; // of the sensor, times the points' root mean square distance
 constexpr double FirstPlaceStep = 0.3;   // of the distance, 17 degrees
 constexpr double LastPlaceStep = 0.02;   // 1 degree
-constexpr double MostHidden = 0.06;      // share of a sensor's own points, a few per cent by noise and steep walls
 constexpr double AsFew = 0.002;          // share of the points, of those hidden from either side of flat parts
 constexpr double HidesMore = 2.0;        // times as many as from the place that was found: the guess is wrong
 
@@ -220,7 +219,7 @@ std::optional<Sensor> searchViewpoint(const Points& points, const Sensor& guess,
     const SeenPlace across = improvedPlace(from, seenPlaceAt(from, -best.place));
     best = across.hidden <= best.hidden + AsFew ? across : best;
   }
-  if (best.hidden > MostHidden || hidden < HidesMore * best.hidden)
+  if (best.hidden > HiddenByNoise || hidden < HidesMore * best.hidden)
   {
     return std::nullopt;
   }

@@ -121,7 +121,8 @@ TEST(CameraFile, lensesOfROS)
   readCamera.fails(text("plumb_bob", "1, 0, 0, 0, 0, 1, 0, 0"), "name it rational_polynomial");
   EXPECT_EQ(readCamera(text("plumb_bob", "1, 2, 3, 4, 5, 0, 0, 0")).camera.distortion,
     (std::array<double, 8>{ 1, 2, 3, 4, 5 }));
-  readCamera.fails(text("plumb_bob", "0, 0, 0, 0, 0") + "\nxi: 0.5", "a lens of the model 'xi', which is not read");
+  readCamera.fails(text("plumb_bob", "0, 0, 0, 0, 0") + "\nxi: 0.5", "a lens of the model 'omni', which is not read");
+  readCamera.fails(text("plumb_bob", "0, 0, 0, 0, 0") + "\nskew: 3", "has a skew, which is not read");
   // camera_info, with a rectification R and no T.
   const meam::Camera info =
     readCamera("height: 480\nwidth: 640\ndistortion_model: plumb_bob\nD: [0.1, 0, 0, 0, 0]\nK: "
