@@ -89,6 +89,10 @@ private:
   std::vector<Grasp> Given;
 };
 
+/// The faces of a gripper as it stands open at a grasp, in the grasp's frame, mm, to look at. Throws Error, with its
+/// name, for a length that is not positive, and for an invalid mesh.
+MEAM_EXPORT Mesh gripperMesh(const GripperModel& gripper, const Grasp& grasp);
+
 /// Finds an open rectangular bin in an organized scan from above, by its rim; for cells whose bin stays where it is.
 MEAM_EXPORT Bin detectBin(const Scan& scan, const Progress& progress = {});
 

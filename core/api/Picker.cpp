@@ -67,6 +67,14 @@ std::vector<int> pickersOf(const Detections& found, std::size_t pickers)
 }
 }
 
+Mesh gripperMesh(const GripperModel& gripper, const Grasp& grasp)
+{
+  const Gripper shape = gripperOf(gripper);
+  requireGripper(shape);
+  const TriangleMesh mesh = meshOf(shape, grasp);
+  return { mesh.vertices, mesh.triangles };
+}
+
 Picker::Picker(
   const Model& model, const Mesh& part, const Grasps& grasps, const GripperModel& gripper, const PlanSettings& settings)
   : Given(grasps)

@@ -37,6 +37,7 @@ void bindGrasps(py::module_& module)
   module.def("save_grasps", &saveGrasps, Unlocked());
   module.def("load_robot_frame", [](const std::string& path) { return loadRobotFrame(path).matrix().eval(); });
   module.def("prepare_mesh", &prepareMesh, Unlocked());
+  module.def("gripper_mesh", &gripperMesh);
   module.def("propose_grasps",
     [](const Model& model, const Mesh& part, const GripperModel& gripper, const ProposeSettings& settings)
     {

@@ -41,14 +41,15 @@ class Picks(Rows):
     (which type of part, from 0), `grasps` (which grasp of that type, from 0), `names` (of the grasps), `widths` (mm),
     `clearances` and `reaches` (mm), `tilts` (degrees), `covered` and `scores` (from 0 to 1). `report` tells in a sentence what
     keeps the gripper from copies that cannot be picked, `advice` what to change for them (empty: all can be picked); `bin`: the
-    one that was found or given."""
+    one that was found or given; `found`: the Detections that it was made for, or None."""
     COLUMNS = {"possible": ("possible", ()), "reasons": ("reason", None), "transforms": ("transform", (4, 4)),
                "instances": ("instance", ()), "parts": ("part", ()), "grasps": ("grasp", ()), "names": ("name", None), "widths": ("width", ()),
                "clearances": ("clearance", ()), "reaches": ("reach", ()), "tilts": ("tilt", ()), "covered": ("covered", ()),
                "scores": ("score", ())}
 
-    def __init__(self, plan, has_robot):
+    def __init__(self, plan, has_robot, found, sets, grippers):
         super().__init__(plan.picks)
+        self.found, self.sets, self.grippers = found, sets, grippers
         self.report, self.advice, self.bin, self.seconds = plan.report, worded(plan.advice), plan.bin, plan.seconds
         self.robot_transforms = None
         if has_robot:
@@ -58,6 +59,52 @@ class Picks(Rows):
         return "\n".join(["pose  score  clearance (mm)  grasp or reason"] + [
             f"{pick.instance + 1:4d}  {pick.score:.3f}  {pick.clearance:14.1f}  {pick.name}" + (f": {pick.reason}" if pick.reason else "")
             for pick in self] + [self.report])
+
+    def best(self):
+        """Of each pose the row of its best pick, or else of one that is not possible."""
+        _, first = numpy.unique(self.instances, return_index=True)
+        return numpy.sort(first)
+
+    def gripper(self, row):
+        """The open gripper at a pick: vertices (N x 3, mm, in the scan's coordinates) and triangles (M x 3)."""
+        pick = self[row]
+        mesh = _core.gripper_mesh(self.grippers[pick.part], self.sets[pick.part][pick.grasp])
+        return mesh.vertices @ pick.transform[:3, :3].T + pick.transform[:3, 3], mesh.triangles
+
+    def save(self, path):
+        """Writes .json, all picks with what is against them, or .html, the page of show()."""
+        name = os.fspath(path).lower()
+        if not name.endswith((".json", ".html", ".htm")):
+            raise Error(f"{path} was not written: picks go to .json, or .html (the page of show()); choose one of these extensions")
+        scripting.require_folder_of(path)
+        if not name.endswith(".json"):
+            return self.page().save(self.require_found(), path, self)
+        columns = [column for column in (*self.COLUMNS, "robot_transforms") if getattr(self, column) is not None]
+        rows = [dict(zip(columns, row)) for row in zip(*(getattr(self, column) for column in columns))]
+        return scripting.write_json(os.fspath(path), {"report": self.report, "advice": self.advice, "parts": self.part_names(), "picks": rows})
+
+    def show(self):
+        """Opens a page as Detections.show() does, with the gripper at the best pick of the pose that is chosen."""
+        return self.page().show(self.require_found(), self)
+
+    def parts_shown(self):
+        """Of each type its name and mesh, for the page."""
+        from .report import content
+        return [content.Part(name, inputs.vtk_mesh(each.part.vertices, each.part.triangles)) for name, each in zip(self.part_names(), self.sets)]
+
+    def part_names(self):
+        """Of the types of part; none of poses alone."""
+        return [] if self.found is None else scripting.part_names([model.file or model.name for model in self.found.models])
+
+    def require_found(self):
+        if self.found is None:
+            raise Error("a page shows the scan: give pick() the Detections of detect(), not poses alone")
+        return self.found
+
+    @staticmethod
+    def page():
+        from .report import notebook  # only now: it needs api.py
+        return notebook
 
 
 def gripper_model(lengths, kind, mesh=None):
@@ -133,7 +180,7 @@ def pick(found, grasps, scan=None, gripper="jaws", bin="detected", robot_frame=N
     seen = _core.Scan(numpy.zeros((0, 3), numpy.float32)) if scan is None else inputs.scan_of(scan, camera, scale)
     models, parts, rows = zip(*((each.model, each.part, each.rows) for each in sets))
     plan = _core.plan(models, parts, rows, shapes, settings.apply(_core.PlanSettings(), _core), poses, seen, place)
-    return Picks(plan, robot_frame is not None)
+    return Picks(plan, robot_frame is not None, found if isinstance(found, Detections) else None, sets, shapes)
 
 
 def workplace(bin, robot_frame):

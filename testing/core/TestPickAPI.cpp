@@ -205,6 +205,27 @@ TEST(PickAPI, TakesAGripperOfAnyShape)
   EXPECT_FALSE(plan.picks[0].possible); // it reaches through both walls
 }
 
+TEST(PickAPI, ShowsTheGripperAtAGrasp)
+{
+  // Fingers to 12 / 2 + 3 + 8 mm aside, the body to 60 / 2 + 8; back from the tips 50 of a finger and 100 of the body.
+  const meam::Mesh mesh = meam::gripperMesh(meam::GripperModel(), acrossTheLeg());
+  Eigen::AlignedBox3f all, fingers;
+  for (const Eigen::Vector3f& vertex : mesh.vertices)
+  {
+    all.extend(vertex);
+    if (vertex.z() > 0.0f)
+    {
+      fingers.extend(vertex);
+    }
+  }
+  EXPECT_EQ(36, mesh.triangles.size());
+  EXPECT_TRUE(all.min().isApprox(Eigen::Vector3f(-38, -30, -144)) && all.max().isApprox(Eigen::Vector3f(38, 30, 6)));
+  EXPECT_TRUE(fingers.max().isApprox(Eigen::Vector3f(17, 6, 6)) && fingers.min().isApprox(Eigen::Vector3f(-17, -6, 6)));
+  meam::GripperModel without;
+  without.fingerWidth = 0.0;
+  EXPECT_THROW(meam::gripperMesh(without, acrossTheLeg()), meam::Error);
+}
+
 TEST(PickAPI, ReadsTheRobotsFrame)
 {
   const files::Folder folder;

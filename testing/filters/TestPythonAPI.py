@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """ppfmeam's functions: files and NumPy arrays in, rows and NumPy arrays out, the same as of the filters; exceptions and nothing
 on the console; threads and signals of Python while they work; the files of a trained model hold the same."""
+import json
 import math
 import os
 import shutil
@@ -17,7 +18,7 @@ from vtkmodules.vtkIOGeometry import vtkSTLWriter
 
 import ppfmeam
 from ppfmeam import _core, filters, inputs, scripting
-from meamtest import Folder, box, check, connect, fails, field, partitions, plate, run, text, tuples, written
+from meamtest import Folder, box, check, connect, fails, field, partitions, plate, read, run, text, tuples, written
 
 WIDTH, HEIGHT, COPIES = 480, 360, 3
 FIELDS = ("Diameter", "Feature", "DistanceStep", "AngleStep", "ViewMerging", "VoxelSize", "LeafSize",
@@ -282,6 +283,16 @@ check(all(("kind of gripper" in reason) == (grasps.kinds[k] == "parallel") for k
 check((deep.bin.transform == place).all() and (*deep.bin.size, deep.bin.wall) == (200, 200, 50, 4), "the bin given")
 check(len(str(picks).splitlines()) == 2 + len(picks) and picks.report in str(picks), str(picks))
 check([row.name for row in grasps] == grasps.names and "suction" in str(grasps), str(grasps))
+first = int(picks.best()[0])
+vertices, triangles = picks.gripper(first)
+in_gripper = (vertices - picks.transforms[first][:3, 3]) @ picks.transforms[first][:3, :3]
+check(triangles.shape == (36, 3) and numpy.allclose(in_gripper.max(axis=0), (38, 30, 6), atol=1e-3), f"{in_gripper.max(axis=0)}")
+check(picks.instances[picks.best()].tolist() == list(dict.fromkeys(picks.instances)), "the best pick of each pose comes first")
+picks.save("picks.json")
+stored = json.loads(read("picks.json"))
+check(stored["report"] == picks.report and [row["scores"] for row in stored["picks"]] == picks.scores.tolist(), "all picks")
+raises("picks go to .json", picks.save, "picks.csv")
+raises("give pick() the Detections", cup.save, "cup.html")
 check(deep.robot_transforms is None and len(deep.clearances) == len(deep), "no robot")
 raises("bin", ppfmeam.pick, found, grasps, scan, bin="box")
 raises("4 x 4", ppfmeam.pick, found, grasps, scan, bin=(numpy.eye(3), 1, 1, 1))

@@ -213,6 +213,24 @@ with warnings.catch_warnings(record=True):
 nothing.save("nothing.html")
 check("no part found" in nothing._repr_html_() and "No part was found." in read("nothing.html"), "nothing found")
 
+# Picks: what can be picked, and of each pose the gripper at its best pick.
+printed = works("pick.py", "--cad", "plate.stl", "--scene", "scan.pcd", "--no-bin", "--cup", "6", "--json", "picks.json", "--report", "picks.html",
+                "--picture", "picks.png")
+data, rows = data_of(read("picks.html")), json.loads(read("picks.json"))["picks"]
+best = {row["instances"] + 1: row for row in reversed(rows)}
+check({gripper["rank"]: gripper["possible"] for gripper in data["grippers"]} == {rank: row["possible"] for rank, row in best.items()}, f"{data['grippers']}")
+for gripper in data["grippers"]:
+    row = best[gripper["rank"]]
+    axes = numpy.array(row["transforms"])
+    corners = (points_of(gripper) - axes[:3, 3]) @ axes[:3, :3]
+    check(abs(corners[:, 2].max()) < 0.1 and numpy.abs(corners[corners[:, 2] > -0.1, :2]).max() < 3.1, f"a cup of 6 mm ends there: {corners.max(axis=0)}")
+    said = data["poses"][gripper["rank"] - 1]["why"].splitlines()[0]
+    check(said.startswith("Pick " if row["possible"] else "No pick: ") and (row["reasons"] or row["names"]) in said, said)
+check(data["chosen"] == (rows[0]["instances"] + 1 if rows[0]["possible"] else 0) and len(data["parts"][0]["triangles"]) > 0, f"{data['chosen']}")
+check(html.escape(json.loads(read("picks.json"))["report"]) in read("picks.html") and "plate in scan.pcd" in read("picks.html"), "the report")
+check("ppfmeam pick --cad plate.stl" in read("picks.html") and data["why"].startswith("ppfmeam why plate.stl scan.pcd"), data["why"])
+check(os.path.getsize("picks.png") > 10000, "the picture")
+
 os.utime("scan.pcd", (0, 0))
 try:
     found.save("other.html")

@@ -107,7 +107,7 @@ refuses("--camera", "detect.py", *MODEL, "--depth", "depth.png", status=2)
 for option, name, other in (("--out", "poses.json", "--json"), ("--json", "poses.csv", "--out"), ("--matrices", "found.html", "--report")):
     refuses(f"give {other} {name}", "detect.py", *MODEL, "--scene", "scan.ply", option, name, status=2)
 refuses("scan.ply holds points alone: the part has to be a mesh", "detect.py", "--cad", "scan.ply", "--scene", "scan.ply")
-refuses("not allowed with", "detect.py", *MODEL, "--depth", "depth.png", "--scene", "scan.ply", status=2)
+refuses("give one scan", "detect.py", *MODEL, "--depth", "depth.png", "--scene", "scan.ply", status=2)
 refuses("a number from 0 to 1, not 2", "detect.py", *MODEL, "--scene", "scan.ply", "--references", "2", status=2)
 refuses("a whole number, 0 or more, not few", "detect.py", *MODEL, "--scene", "scan.ply", "--poses", "few", status=2)
 refuses("8 bits", "detect.py", *MODEL, "--depth", "image.png", "--camera", "camera.json")
@@ -176,7 +176,7 @@ check(why.rank == 1, why.verdict)
 for text in (read("v.html"), read("clouds_pages/0.ply.html")):
     check("--viewpoint -0.4 0.15 0.9" in text, "the command of the page has no viewpoint")
 refuses("--camera tells", "detect.py", *MODEL, "--scene", "scan.ply", "--camera", "camera.json", *VIEW, status=2)
-refuses("the camera tells", "why.py", "part.vtpc", "scan.ply", "--camera", "camera.json", *VIEW, "--at", "0", "0", "600")
+refuses("--camera tells", "why.py", "part.vtpc", "scan.ply", "--camera", "camera.json", *VIEW, "--at", "0", "0", "600", status=2)
 
 # Without an image by the edges of the depth alone; a folder of such scans, too.
 works("detect.py", *MODEL, "--depth", "depth.png", "--camera", "camera.json", "--no-image", "--matrices", "d.txt")

@@ -1,13 +1,17 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """From a scan to picks: where jaws or a cup can take which part out of the bin, best first, and what is against the others."""
 import argparse
+import os
+import shlex
+import sys
 
 import numpy
 
 import ppfmeam
-from ppfmeam import api, asked, choices, scripting
+from ppfmeam import api, asked, choices, inputs, picture, scripting
 
-from ..report.told import names_of
+from ..report import notebook, page
+from ..report.told import names_of, why_command
 
 
 def length(words):
@@ -64,31 +68,37 @@ def print_picks(picks, names):
 
 def main():
     parser = scripting.Parser(description=__doc__)
-    asked.add_options(parser)
+    asked.add_options(parser, "time_limit")
     parser.set_defaults(poses=0, probability=0.5)  # all copies are in the way
-    choices.add_options(parser, "detect", "time_limit")
+    parser.epilog = asked.OF_DATASET
     add_gripper_options(parser)
     choices.add_options(parser, "plan", "tilt", "covered", "margin")
     parser.add_argument("--no-bin", action="store_true", help="the parts lie in no bin: do not look for one")
     parser.add_argument("--robot-frame", metavar="FILE", help="the camera in the robot's frame, of OpenCV or ROS: picks are printed in it")
     parser.add_argument("--json", metavar="FILE", help="write all picks as JSON, with what is against those that are not possible")
-    options = asked.parsed(parser)
-    if any(map(api.is_model, options.cad or options.parts)):
+    parser.add_argument("--picture", metavar="FILE", help="write a picture, PNG or JPEG, of the scan with the part at each pose")
+    parser.add_argument("--report", metavar="HTML",
+                        help="write a page for any browser, in one file: scan, parts and the gripper at the best pick of each in 3D")
+    options = asked.parsed(parser, holds=True)
+    if not options.cad or any(map(api.is_model, options.cad)):
         parser.error("give a trained model by --model, and its --cad: grasps are places on the faces of that")
-    scripting.require_folder_of(options.json)
+    scripting.require_folder_of(options.json, options.picture, options.report)
+    picture.require(options.picture)
+    page.require(options.report)
     gripper, lengths = gripper_of(options)
     of, names = asked.Asked(options), names_of(options.parts)
     sets = grasps_of(of, names, gripper, lengths)
     found = ppfmeam.detect(of.models, of.scan, time_limit=options.time_limit, **of.inputs())
     no_bin = options.no_bin or not len(found)  # without a copy it matters to none
     picks = ppfmeam.pick(found, sets, of.scan, gripper=gripper, bin="none" if no_bin else "detected", robot_frame=options.robot_frame,
-                         camera=of.beside["camera"], scale=options.scale, **choices.of_options("plan", options).values)
+                         camera=of.beside["camera"], scale=options.scene_scale, **choices.of_options("plan", options).values)
     advice = picks.advice if len(found) else found.advice
     print(picks.report, advice)
     print_picks(picks, names)
     if options.json:
-        columns = {name: getattr(picks, name) for name in picks.COLUMNS}
-        if options.robot_frame:
-            columns["robot_transforms"] = picks.robot_transforms
-        rows = [dict(zip(columns, row)) for row in zip(*columns.values())]
-        scripting.write_json(options.json, {"report": picks.report, "advice": advice, "parts": names, "picks": rows})
+        picks.save(options.json)
+    if options.picture:
+        picture.save(options.picture, inputs.to_vtk(found.scan())[0], found.data, *of.shapes())
+    if options.report:
+        again = shlex.join(["ppfmeam", "pick", *sys.argv[1:]]), why_command(options, options.scan, options.image, options.boundary)
+        notebook.save(found, options.report, picks, (os.path.basename(options.scan), *again))

@@ -16,6 +16,7 @@ from ..report.told import Told, names_of
 def options_of_user():
     parser = scripting.Parser(description=__doc__)
     asked.add_options(parser)
+    parser.epilog = asked.OF_DATASET
     place = parser.add_mutually_exclusive_group(required=True)
     place.add_argument("--at", nargs=3, type=choices.finite, metavar=("X", "Y", "Z"), help="a point of the scan on the part, in mm")
     place.add_argument("--pose", metavar="FILE[:ROW]",
@@ -93,7 +94,7 @@ def content(diagnosis):
 
 def write_page(of, inputs, diagnosis):
     options = of.options
-    seen = scans.scan_of(of.scan, inputs["camera"], options.scale, inputs["image"], image_camera=inputs["image_camera"])
+    seen = scans.scan_of(of.scan, inputs["camera"], options.scene_scale, inputs["image"], image_camera=inputs["image_camera"])
     place = numpy.zeros((0, 4, 4)) if diagnosis.pose is None else diagnosis.pose[None]
     poses = scripting.poses_of(place)
     poses.GetPointData().AddArray(scripting.vtk_array(numpy.full(len(place), diagnosis.part), "PartId"))

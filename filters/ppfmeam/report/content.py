@@ -84,6 +84,11 @@ class Part:
                 "triangles": base64_of(triangles_of(mesh), "<u4")}
 
 
+def gripper(rank, possible, vertices, triangles):
+    """The gripper that takes a pose of this rank: its corners, of each triangle its own, so that faces are flat."""
+    return {"rank": rank, "possible": bool(possible), **quantized(numpy.asarray(vertices, float)[numpy.asarray(triangles).ravel()])}
+
+
 class Seen:
     """A scan for the eye: its points with their grey values or colours, and the picture beside it with its camera. `what` the
     picture is: "image", "surface" or "map"."""

@@ -7,7 +7,7 @@ import webbrowser
 
 from .. import scripting
 from . import content, markup, page
-from .told import Told
+from .told import Told, title_of
 
 PIXELS = 800  # along the picture's longer side
 HEIGHT = 1000  # pixels of a page in a notebook
@@ -32,15 +32,21 @@ def cell(found):
             f'{markup.table(rows, [part.name for part in parts])}</div>')
 
 
-def page_of(found):
-    """The page as text."""
-    return page.html(found.scan(), found.data, parts_of(found), Told.of_python(found))
+def page_of(found, picks=None, command=None):
+    """The page as text; of a command with its scan's name, the words that find the same again, and those that tell why a part was missed."""
+    told = Told.of_python(found)
+    if picks is not None:
+        told.add_picks(picks)
+    if command is not None:
+        scan, told.command, told.why = command
+        told.title = title_of(told.names, scan)
+    return page.html(found.scan(), found.data, parts_of(found) if picks is None else picks.parts_shown(), told)
 
 
-def save(found, path):
+def save(found, path, picks=None, command=None):
     page.require(path)
     scripting.require_folder_of(path)
-    page.write(path, page_of(found))
+    page.write(path, page_of(found, picks, command))
 
 
 class Frame:
@@ -56,9 +62,9 @@ class Frame:
         return f'<iframe srcdoc="{html.escape(self.text)}" width="100%" height="{HEIGHT}" style="border: 0"></iframe>'
 
 
-def show(found):
+def show(found, picks=None):
     """In a notebook the page, elsewhere the name of the file that the browser opens."""
-    text = page_of(found)
+    text = page_of(found, picks)
     if "ipykernel" in sys.modules:
         return Frame(text)
     with tempfile.NamedTemporaryFile("w", encoding="utf-8", prefix="found_", suffix=".html", delete=False) as file:

@@ -74,6 +74,16 @@
       labels.appendChild(label);
       return { pose, body, outline, label, middle: new THREE.Vector3().fromArray(data.parts[pose.part].middle).applyMatrix4(matrix) };
     });
+    // Of picks: green where the gripper can go, red where it cannot, as in ParaView.
+    const grippers = data.grippers.map(gripper => {
+      const geometry = new THREE.BufferGeometry();
+      geometry.setAttribute("position", new THREE.BufferAttribute(positions(gripper), 3));
+      geometry.computeVertexNormals();
+      const material = new THREE.MeshPhongMaterial({ color: gripper.possible ? 0x3cb44b : 0xdc3232, transparent: true, opacity: 0.75, side: THREE.DoubleSide });
+      const body = new THREE.Mesh(geometry, material);
+      scene.add(body);
+      return { gripper, body };
+    });
     if (data.marks) addMarks(scene);
     const legend = holder.appendChild(Object.assign(document.createElement("div"), { id: "legend" }));
     legend.innerHTML = data.legend.map(([name, color]) => `<div><i style="background:${color}"></i>${name}</div>`).join("");
@@ -156,6 +166,7 @@
         label.style.outline = chosen ? "2px solid #fff" : "none";
         label.style.opacity = chosen || !state.chosen ? 1 : 0.45;
       }
+      for (const { gripper, body } of grippers) body.visible = gripper.rank === state.chosen;
       renderer.render(scene, camera);
       drawAxes(pixels);
     }
@@ -319,7 +330,7 @@
       const least = Math.round(100 * state.least);
       if (hidden) add("p", `${hidden} ${hidden > 1 ? "poses are" : "pose is"} less likely than ${least} % and not shown: the slider shows them.`);
       if (!data.poses.length) add("p", "Nothing was found: \u201cHow it was found\u201d tells what the scan is like.");
-      if (data.poses.length) add("p", "Select a pose to see it from all sides, in the image and in numbers.");
+      if (data.poses.length) add("p", "Select a pose to see it from all sides, in the image and in numbers" + (data.grippers.length ? ", and the gripper at its best pick: green where it can go there, red where not." : "."));
       if (space && data.why) add("p", "A part was missed? Click it in the 3D view: its place and the command that tells why come up here.");
     }
   }

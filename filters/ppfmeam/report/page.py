@@ -58,6 +58,7 @@ def slots_of(seen, rows, names, told, words, legend=(), pixels=content.MOST_PIXE
     words, names and colors of a legend. DATA lacks the parts."""
     marks = content.marks(told.diagnosis) if told.diagnosis else None
     data = {"scan": seen.content(), "poses": rows, "why": told.why, "likely": markup.LIKELY, "chosen": told.chosen, "marks": marks,
+            "grippers": [content.gripper(*each) for each in told.grippers],
             "legend": marks["legend"] if marks else legend}
     return {"TITLE": escape(told.title), "SUMMARY": escape(words), "PICTURE": markup.picture(seen.picture_content(pixels), rows),
             "CAPTION": CAPTIONS[seen.what], "TABLE": markup.table(rows, names), "RUN": run(told, seen), "DATA": data}

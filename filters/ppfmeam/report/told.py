@@ -14,21 +14,32 @@ class Told:
     """`names` of the parts, and of the scan; `facts`, sentences of the scan; `advice`, what to change first; `seconds`, of each stage or
     "total"; `settings` that are not the defaults, by name; `command`, which finds the same again; `why`, a command with {x} {y} {z} for
     the place that was clicked; `reasons`, of each pose what speaks for it and against it; `diagnosis`, of a page that tells why a part was missed;
-    `chosen`, the rank that is selected at first, 0 for none."""
+    `chosen`, the rank that is selected at first, 0 for none; `grippers`, of a page of picks each pose's rank, whether it can be picked, and the
+    gripper at its best pick, vertices and triangles."""
 
     def __init__(self, names, scan, facts, advice, seconds, settings, command, why, reasons, diagnosis=None):
         self.names, self.facts, self.advice, self.seconds, self.settings = names, facts, advice, seconds, settings
         self.command, self.why, self.reasons = command, why, reasons
-        self.title = " and ".join(dict.fromkeys(names)) + f" in {scan}"
+        self.title = title_of(names, scan)
         self.diagnosis, self.chosen = diagnosis, int(diagnosis is not None and diagnosis.pose is not None)
+        self.grippers = []
+
+    def add_picks(self, picks):
+        """What a gripper can take: a page of picks says it of each pose first, and starts at the best pick."""
+        self.advice = f"{picks.report} {picks.advice}".rstrip()
+        for row in picks.best():
+            pick = picks[row]
+            said = f"Pick {row + 1}, {pick.name}: {pick.clearance:.1f} mm clearance." if pick.possible else f"No pick: {pick.reason}."
+            self.reasons[pick.instance] = f"{said}\n{self.reasons[pick.instance]}"
+            self.grippers.append((pick.instance + 1, pick.possible, *picks.gripper(row)))
+        self.chosen = picks[0].instance + 1 if len(picks) and picks[0].possible else 0
 
     @classmethod
     def of_command(cls, options, poses, parts, data):
         """Of the options of `detect`, the poses, the parts and the scan, its edge points and its image."""
-        scan, files = options.scene or options.depth, options.cad or options.model
-        return cls(scripting.part_names(files), os.path.basename(scan), facts(poses), advice(poses), stages(poses),
-                   settings(options), shlex.join(["ppfmeam", "detect", *sys.argv[1:]]),
-                   why_command(options, scan, options.image, options.boundary),
+        return cls(scripting.part_names(options.cad or options.model), os.path.basename(options.scan), facts(poses), advice(poses),
+                   stages(poses), settings(options), shlex.join(["ppfmeam", "detect", *sys.argv[1:]]),
+                   why_command(options, options.scan, options.image, options.boundary),
                    reasons(poses, parts, data, set_up_by(options, options.image_camera)))
 
     @classmethod
@@ -88,6 +99,10 @@ class Told:
         choices_made = "".join(f", {choice}={value!r}" for choice, value in chosen.items())
         return cls([model.name for model in found.models], name, found.report.splitlines(), found.advice, {"total": found.seconds}, chosen,
                    f"ppfmeam.detect({part}, {scan}{words}{choices_made})", f"print(ppfmeam.why({part}, {scan}{words}{choices_made}, at=({{x}}, {{y}}, {{z}})))", said)
+
+
+def title_of(names, scan):
+    return " and ".join(dict.fromkeys(names)) + f" in {scan}"
 
 
 def is_given(value):
