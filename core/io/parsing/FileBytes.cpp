@@ -21,6 +21,20 @@ namespace
 {
 std::string reason() { return errno != 0 ? std::string(": ") + std::strerror(errno) + "." : "."; }
 
+/// What a download leaves in place of a file, and what to do; empty: nothing of this kind.
+std::string standInOf(const std::string& bytes)
+{
+  constexpr std::size_t Longest = 200; // letters, of white space before a page, too
+  std::string start = bytes.substr(0, Longest);
+  start.erase(0, std::min(start.find_first_not_of(" \t\r\n"), start.size()));
+  std::transform(start.begin(), start.end(), start.begin(),
+    [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  const auto begins = [&](const std::string& word) { return start.compare(0, word.size(), word) == 0; };
+  return begins("version https://git-lfs")             ? "a pointer of Git LFS: git lfs pull fetches the file"
+         : begins("<!doctype html") || begins("<html") ? "a web page: download the file itself, which pages call raw"
+                                                       : "";
+}
+
 /// False, with errno set where the system gave a reason, unless every byte arrived.
 bool put(const std::string& path, const std::string& bytes)
 {
@@ -82,6 +96,11 @@ std::string readFile(const std::string& path, std::int64_t most)
   if (!file.read(bytes.data(), size))
   {
     throw Error(what + (file.eof() ? ": it was cut off while it was read." : reason()));
+  }
+  const std::string standIn = standInOf(bytes);
+  if (!standIn.empty())
+  {
+    throw Error(what + ": it is " + standIn + ".");
   }
   return bytes;
 }

@@ -11,7 +11,7 @@ namespace meam
 void writeFile(const std::string& path, const std::string& bytes);
 
 /// The bytes of a file, at most so many from its start. Throws Error, naming the file, when it is missing or
-/// unreadable.
+/// unreadable, and when it is a web page or a pointer of Git LFS.
 std::string readFile(const std::string& path, std::int64_t most = INT64_MAX);
 
 /// The bytes of a file of text, as readFile() has them; of one in UTF-16 that begins with a byte order mark, as some

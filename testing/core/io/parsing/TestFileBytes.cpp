@@ -52,3 +52,24 @@ TEST(FileBytes, aFileThatBecomesShorterWhileItIsRead)
   const std::string error = files::errorOf([&] { meam::readFile(path); });
   EXPECT_EQ(error, "The file '" + path + "' cannot be read: it was cut off while it was read.");
 }
+
+TEST(FileBytes, whatADownloadLeavesInPlaceOfAFile)
+{
+  const files::Folder folder;
+  const std::string path = folder.path("part.stl");
+  for (const auto& [bytes, what] :
+    { std::pair<std::string, std::string>{ "\r\n <!DOCTYPE HTML>\n<html>", "a web page" },
+      { "<html lang='en'>", "a web page" },
+      { "version https://git-lfs.github.com/spec/v1\n", "a pointer of Git LFS" } })
+  {
+    meam::writeFile(path, bytes);
+    const std::string error = files::errorOf([&] { meam::readFile(path); });
+    EXPECT_NE(error.find("The file '" + path + "' cannot be read: it is " + what), std::string::npos) << error;
+  }
+  for (const std::string& bytes :
+    { std::string(), std::string("\n\n"), std::string("solid <html>"), std::string(300, ' ') })
+  {
+    meam::writeFile(path, bytes);
+    EXPECT_EQ(meam::readFile(path), bytes);
+  }
+}
