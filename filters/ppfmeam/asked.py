@@ -4,7 +4,6 @@ import os
 
 from . import api, choices, dataset, regions, scripting
 
-OF_DATASET = "SCAN may also be an image of a BOP dataset, DIR/test/SSSSSS/IIIIII, and PART then the number of an object."
 OF_SEARCH = ("poses", "probability", "rotation_counts", "features", "image_edges", "references", "preset")  # what decides which poses come out
 OF_DETECTION = (*(name for name in OF_SEARCH if name not in ("poses", "preset")), "threads")
 
@@ -12,10 +11,11 @@ OF_DETECTION = (*(name for name in OF_SEARCH if name not in ("poses", "preset"))
 def add_options(parser, *ours):
     """`ours`: choices of the table "detect" that follow those which decide what is looked for."""
     parser.add_argument("part", nargs="?", metavar="PART",
-                        help="CAD file of the part (.step or .iges, or .stl, .obj, .ply or .off in mm), or trained model of `train`")
+                        help="CAD file of the part (.step or .iges, or .stl, .obj, .ply or .off in mm), or trained model of `train`; of a BOP "
+                             "dataset also the number of an object")
     parser.add_argument("scan", nargs="?", metavar="SCAN",
                         help="scan: .pcd, .ply or a text of points (.xyz, .csv, .txt, .asc, .pts), organized or points alone, in mm; the points of a "
-                             ".stl or .obj; or a depth image with --camera")
+                             ".stl or .obj; a depth image with --camera; or an image of a BOP dataset, DIR/test/SSSSSS/IIIIII")
     parser.add_argument("--cad", action="append", default=[], metavar="FILE", help="in place of PART, once for each type of part in the scan")
     parser.add_argument("--model", action="append", default=[], metavar="FILE",
                         help="trained model in place of PART, once for each type of part; its --cad, in the same order, has the faces "
@@ -80,45 +80,56 @@ def is_number(part):
     return part.isdecimal() and not os.path.exists(part)
 
 
-class Asked:
-    """The parts' models and the scan of the options, as api.why() and api.detect() take them. The scan may also be an image of a BOP dataset,
-    DIR/test/SSSSSS/IIIIII, as `evaluate bop` has it, and a part then the number of an object."""
+class Named:
+    """The parts and the scan that the options name. The scan may also be an image of a BOP dataset, DIR/test/SSSSSS/IIIIII, as `evaluate bop`
+    has it, and a part then the number of an object. `found`: the dataset and the image, or None."""
 
     def __init__(self, options):
-        self.scan, self.options = options.scan, options
+        self.options, self.found = options, dataset.image_at(options.scan)
+        if self.found and (options.image or options.camera or options.image_camera):
+            raise scripting.Failure(f"{options.scan} is of a BOP dataset, which has its cameras and images: leave --camera and --image out")
         self.beside = {name: getattr(options, name) for name in ("image", "boundary", "camera", "image_camera")}
-        self.found = found = dataset.image_at(options.scan)
-        if found:
-            if any(self.beside[name] for name in ("image", "camera", "image_camera")):
-                raise scripting.Failure(f"{options.scan} is of a BOP dataset, which has its cameras and images: leave --camera and --image out")
-            self.scan = found[1].scan
-            if found[1].beside:
-                self.beside.update(image=found[1].beside, image_camera=found[0].beside())
-        if not found:
-            scripting.require_file(options.scan)  # before parts are trained
-        if options.depth:
-            self.scan, self.beside["camera"] = scripting.read_depth(options.depth, options.camera, options.depth_scale), None
-        how, reading = (choices.of_options(group, options) for group in ("detect", "read"))
-        self.models = [api.part_of(found[0].train(int(part), options.preset, options.features) if self.is_object(part) else part,
-                                   options.cad_scale, how, reading, options.cad_offset) for part in options.parts]
+        if self.found and self.found[1].beside:
+            self.beside.update(image=self.found[1].beside, image_camera=self.found[0].beside())
 
     def is_object(self, part):
         """Whether the number of an object of the dataset names the part."""
         return bool(self.found) and is_number(part)
 
-    def inputs(self):
-        """What goes with the scan, and how parts are looked for."""
-        names = ("viewpoint", "poses", "preset", *OF_DETECTION)
-        return {**{name: getattr(self.options, name) for name in names}, **self.beside, "scale": self.options.scene_scale,
-                "region": self.options.roi}
+    def trained(self, part):
+        """The trained model of an object."""
+        return self.found[0].train(int(part), self.options.preset, self.options.features)
 
     def shapes(self):
         """The parts' meshes, or the samples of trained models."""
         return [self.shape(part) for part in self.options.cad or self.options.model]
 
     def shape(self, part):
+        return scripting.shape_of(scripting.read_model(part)) if api.is_model(part) else self.mesh(part)
+
+    def mesh(self, part):
+        """That of a CAD file or an object."""
         if self.is_object(part):
             return self.found[0].mesh(int(part))
-        if api.is_model(part):
-            return scripting.shape_of(scripting.read_model(part))
         return scripting.read_mesh(part, self.options.cad_offset, self.options.cad_scale, self.options.solid)
+
+
+class Asked(Named):
+    """The parts' models and the scan, as api.why() and api.detect() take them."""
+
+    def __init__(self, options):
+        super().__init__(options)
+        self.scan = self.found[1].scan if self.found else options.scan
+        if not self.found:
+            scripting.require_file(options.scan)  # before parts are trained
+        if options.depth:
+            self.scan, self.beside["camera"] = scripting.read_depth(options.depth, options.camera, options.depth_scale), None
+        how, reading = (choices.of_options(group, options) for group in ("detect", "read"))
+        self.models = [api.part_of(self.trained(part) if self.is_object(part) else part, options.cad_scale, how, reading, options.cad_offset)
+                       for part in options.parts]
+
+    def inputs(self):
+        """What goes with the scan, and how parts are looked for."""
+        names = ("viewpoint", "poses", "preset", *OF_DETECTION)
+        return {**{name: getattr(self.options, name) for name in names}, **self.beside, "scale": self.options.scene_scale,
+                "region": self.options.roi}

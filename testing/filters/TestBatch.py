@@ -52,6 +52,9 @@ works("detect.py", "--model", "plate.meam", "--depth", f"{place}/depth/000000.pn
       "--image", f"{place}/gray/000000.png", "--out", "one.csv")
 ours = [(row["probability"], row["R"], row["t"]) for row in poses if row["scan"] == names[2]]
 check([(row["score"], row["R"], row["t"]) for row in rows_of("one.csv")] == ours, "the poses are not those of detect")
+works("detect.py", "1", f"{place}/000000", "--out", "image.csv")
+check([(row["score"], row["R"], row["t"]) for row in rows_of("image.csv")] == ours, "of an image and an object of the dataset other poses")
+refuses("leave --camera and --image out", "detect.py", "1", f"{place}/000000", "--camera", "bins/camera.json")
 of_scans = rows_of("poses.scans.csv")
 check([row["scan"] for row in of_scans] == names and all(float(row["find_s"]) > 0 for row in of_scans), "the times")
 check(not os.path.exists("poses.csv.run"), "what is done is left behind")

@@ -28,22 +28,30 @@ def options_of_user():
     return options
 
 
+def scan_of(named, options):
+    """The scan in mm, and the image that stands beside it with its camera, or None."""
+    image_camera = named.beside["image_camera"]
+    if named.found:
+        return scripting.scaled(named.found[1].scan, options.scene_scale, options.scan), named.beside["image"], image_camera
+    image = scripting.read_image(options.image) if options.image else None
+    if not options.depth:
+        return scripting.read_scan(options.scan, options.scene_scale, options.camera), image, image_camera
+    scan = scripting.read_depth(options.depth, options.camera, options.depth_scale)
+    return scripting.scaled(scan, options.scene_scale, options.depth), image, image_camera
+
+
 def main():
     options = options_of_user()
     scripting.require_folder_of(options.out, options.json, options.matrices, options.picture, options.report)
     picture.require(options.picture)
     page.require(options.report)
-    meshes = [scripting.read_mesh(path, options.cad_offset, options.cad_scale, options.solid) for path in options.cad]
-    parts = [scripting.read_model(path) for path in options.model] or meshes
-    if options.depth:
-        scene = scripting.read_depth(options.depth, options.camera, options.depth_scale)
-        scene = scripting.scaled(scene, options.scene_scale, options.depth)
-    else:
-        scene = scripting.read_scan(options.scan, options.scene_scale, options.camera)
-
+    named = asked.Named(options)
+    meshes = [named.mesh(part) for part in options.cad]
+    parts = [scripting.read_model(path) for path in options.model] or [
+        named.trained(part) if named.is_object(part) else mesh for part, mesh in zip(options.cad, meshes)]
+    scene, image, image_camera = scan_of(named, options)
     boundary = scripting.read(options.boundary, options.scene_scale) if options.boundary else None
-    image = scripting.read_image(options.image) if options.image else None
-    poses = finding.Finder(parts, options).find(scene, boundary, image, options.image_camera)
+    poses = finding.Finder(parts, options).find(scene, boundary, image, image_camera)
     scripting.print_poses(poses)
     scripting.print_scan_quality(poses)
     scripting.print_times(poses)
@@ -53,6 +61,6 @@ def main():
     if options.picture:
         picture.save(options.picture, scene, poses, *(meshes or parts))
     if options.report:
-        told = Told.of_command(options, poses, parts, (scene, boundary, image))
+        told = Told.of_command(options, poses, parts, (scene, boundary, image), image_camera)
         shown = [Part(name, scripting.shape_of(part)) for name, part in zip(told.names, meshes or parts)]
-        page.write(options.report, page.html(inputs.scan_of(scene, image=image, image_camera=options.image_camera), poses, shown, told))
+        page.write(options.report, page.html(inputs.scan_of(scene, image=image, image_camera=image_camera), poses, shown, told))

@@ -70,7 +70,6 @@ def main():
     parser = scripting.Parser(description=__doc__)
     asked.add_options(parser, "time_limit")
     parser.set_defaults(poses=0, probability=0.5)  # all copies are in the way
-    parser.epilog = asked.OF_DATASET
     add_gripper_options(parser)
     choices.add_options(parser, "plan", "tilt", "covered", "margin")
     parser.add_argument("--no-bin", action="store_true", help="the parts lie in no bin: do not look for one")

@@ -16,7 +16,6 @@ from ..report.told import Told, names_of
 def options_of_user():
     parser = scripting.Parser(description=__doc__)
     asked.add_options(parser)
-    parser.epilog = asked.OF_DATASET
     place = parser.add_mutually_exclusive_group(required=True)
     place.add_argument("--at", nargs=3, type=choices.finite, metavar=("X", "Y", "Z"), help="a point of the scan on the part, in mm")
     place.add_argument("--pose", metavar="FILE[:ROW]",

@@ -35,12 +35,12 @@ class Told:
         self.chosen = picks[0].instance + 1 if len(picks) and picks[0].possible else 0
 
     @classmethod
-    def of_command(cls, options, poses, parts, data):
-        """Of the options of `detect`, the poses, the parts and the scan, its edge points and its image."""
-        return cls(scripting.part_names(options.cad or options.model), os.path.basename(options.scan), facts(poses), advice(poses),
+    def of_command(cls, options, poses, parts, data, image_camera):
+        """Of the options of `detect`, the poses, the parts and the scan, its edge points and its image, and the calibration of that."""
+        return cls(names_of(options.cad or options.model), os.path.basename(options.scan), facts(poses), advice(poses),
                    stages(poses), settings(options), shlex.join(["ppfmeam", "detect", *sys.argv[1:]]),
                    why_command(options, options.scan, options.image, options.boundary),
-                   reasons(poses, parts, data, set_up_by(options, options.image_camera)))
+                   reasons(poses, parts, data, set_up_by(options, image_camera)))
 
     @classmethod
     def of_batch(cls, options, names, scan, files, poses, parts, data):
