@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
+#include <limits>
 #include <numeric>
 #include <optional>
 
@@ -25,6 +26,10 @@ constexpr double LeastTurn = 5.0; // degrees that some motions have to turn, abo
 constexpr double MostShift = 20.0;    // mm, root mean square
 constexpr double MostTurn = 5.0;      // degrees
 constexpr double MostOutliers = 0.25; // share of the pairs that may stand out
+// Where a few pairs are wrong, wrong explanations of all may come within the above:
+constexpr double MuchBetter = 0.7; // times its residual another explanation has, which then takes its place
+constexpr double WellFits =
+  5.0; // mm: below it residuals tell nothing, and no outliers are looked for, which takes long
 
 constexpr std::size_t FewestPairs = 3;
 constexpr double Degrees = 180.0 / M_PI;
@@ -297,62 +302,103 @@ std::vector<std::size_t> outliersOf(const HandEyePairs& pairs, CameraMount mount
   return {};
 }
 
+/// What the pairs may look like: the explanation under which they fit best.
+class Explanations
+{
+public:
+  /// Of pairs under which it holds, unless another explanation fits well.
+  template <typename Pairs>
+  void consider(const Pairs& pairs, CameraMount mount, const std::string& words)
+  {
+    if (this->Shift <= WellFits)
+    {
+      return;
+    }
+    const std::optional<HandEyeCalibration> fit = bestOf(pairs(), mount);
+    if (isSane(fit) && std::max(fit->shift, WellFits) < MuchBetter * this->Shift)
+    {
+      this->Shift = std::max(fit->shift, WellFits);
+      this->Words = words;
+    }
+  }
+  const std::string& words() const { return this->Words; } ///< empty: nothing fits
+  double shift() const { return this->Shift; }             ///< mm
+
+private:
+  double Shift = std::numeric_limits<double>::infinity(); ///< mm
+  std::string Words;
+};
+
+void considerOutliers(
+  const HandEyePairs& pairs, CameraMount mount, const std::vector<Mistake>& mistakes, Explanations& all)
+{
+  const std::vector<std::size_t> out = outliersOf(pairs, mount);
+  if (out.empty())
+  {
+    return;
+  }
+  std::string which;
+  HandEyePairs others;
+  for (std::size_t k = 0; k < pairs.size(); ++k)
+  {
+    if (std::find(out.begin(), out.end(), k) == out.end())
+    {
+      others.push_back(pairs[k]);
+    }
+  }
+  for (const std::size_t pair : out)
+  {
+    which += (which.empty() ? "" : ", ") + std::to_string(pair + 1);
+  }
+  const std::optional<HandEyeCalibration> without = bestOf(others, mount); // found, or there are no outliers
+  const auto mistake = std::find_if(mistakes.begin(), mistakes.end(),
+    [&](const Mistake& each)
+    {
+      HandEyePairs mended = pairs;
+      std::for_each(out.begin(), out.end(), [&](std::size_t pair) { each.undo(mended[pair]); });
+      const std::optional<HandEyeCalibration> withThem = bestOf(mended, mount);
+      return isSane(withThem) && MuchBetter * withThem->shift < without->shift;
+    });
+  all.consider([&] { return others; }, mount,
+    "Without pair " + which + " the others fit" +
+      (mistake == mistakes.end() ? std::string(": leave it out.") : ", and with it if in it " + mistake->what + "."));
+}
+
 /// What the pairs look like under which a camera would fit: in a sentence or two.
 std::string suspicionOf(const HandEyePairs& pairs, CameraMount mount, const HandEyeCalibration& found)
 {
   const CameraMount other = mount == CameraMount::Hand ? CameraMount::Beside : CameraMount::Hand;
-  const char* const otherName = other == CameraMount::Hand ? "on the hand" : "beside the robot";
-  if (isSane(bestOf(pairs, other)))
-  {
-    return std::string("They fit a camera ") + otherName +
-           ": set the mount; or the poses of all targets (T_target_camera), or of all grippers, are inverse.";
-  }
+  const std::string fitsOther =
+    other == CameraMount::Hand ? "They fit a camera on the hand" : "They fit a camera beside the robot";
   const std::vector<Mistake> mistakes = mistakesInUse();
+  Explanations all;
+  all.consider([&] { return pairs; }, other,
+    fitsOther + ": set the mount; or the poses of all targets (T_target_camera), or of all grippers, are inverse.");
   for (const Mistake& mistake : mistakes)
   {
-    if (isSane(bestOf(changed(pairs, mistake.undo), mount)))
-    {
-      return std::string("They fit if ") + mistake.what + ": change that.";
-    }
+    all.consider([&] { return changed(pairs, mistake.undo); }, mount, "They fit if " + mistake.what + ": change that.");
   }
   for (std::size_t lag = 1; 2 * lag <= pairs.size() && pairs.size() - lag > FewestPairs; ++lag)
   {
     for (const int sign : { 1, -1 })
     {
-      if (isSane(bestOf(shifted(pairs, sign * static_cast<int>(lag)), mount)))
-      {
-        return "They fit if each gripper belongs to the target of the pair " + std::to_string(lag) +
-               (sign > 0 ? " later" : " earlier") + ": the lists are shifted against each other.";
-      }
+      all.consider([&] { return shifted(pairs, sign * static_cast<int>(lag)); }, mount,
+        "They fit if each gripper belongs to the target of the pair " + std::to_string(lag) +
+          (sign > 0 ? " later" : " earlier") + ": the lists are shifted against each other.");
     }
   }
-  if (const std::vector<std::size_t> out = outliersOf(pairs, mount); !out.empty())
+  if (all.shift() > WellFits)
   {
-    std::string which;
-    for (const std::size_t pair : out)
-    {
-      which += (which.empty() ? "" : ", ") + std::to_string(pair + 1);
-    }
-    for (const Mistake& mistake : mistakes)
-    {
-      HandEyePairs mended = pairs;
-      for (const std::size_t pair : out)
-      {
-        mistake.undo(mended[pair]);
-      }
-      if (isSane(bestOf(mended, mount)))
-      {
-        return "Without pair " + which + " the others fit, and with it if in it " + mistake.what + ".";
-      }
-    }
-    return "Without pair " + which + " the others fit: leave it out.";
+    considerOutliers(pairs, mount, mistakes, all);
   }
   for (const Mistake& mistake : mistakes)
   {
-    if (isSane(bestOf(changed(pairs, mistake.undo), other)))
-    {
-      return std::string("They fit a camera ") + otherName + " if " + mistake.what + ": change that.";
-    }
+    all.consider(
+      [&] { return changed(pairs, mistake.undo); }, other, fitsOther + " if " + mistake.what + ": change that.");
+  }
+  if (!all.words().empty())
+  {
+    return all.words();
   }
   const auto worst = std::max_element(found.shifts.begin(), found.shifts.end()) - found.shifts.begin();
   return "Pair " + std::to_string(worst + 1) +

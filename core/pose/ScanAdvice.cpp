@@ -87,7 +87,8 @@ std::string scanAdvice(const ScanQuality& quality, const DetectionReport& report
     {
       sentences.push_back(
         "The part is " + std::to_string(std::lround(pixels)) +
-        " pixels long in the scan: below 100 parts are missed; scan from nearer, or with more pixels.");
+        " pixels long in the scan: below 100 parts are missed; scan from nearer, or with more pixels." +
+        (there == 0 ? " If it should be longer, the scan or the CAD file has another unit." : ""));
     }
     if (quality.coverage < LeastCoverage && !quality.isCutOut() && !isViewpointGuessed)
     {

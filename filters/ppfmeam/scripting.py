@@ -374,7 +374,8 @@ def require_kind(path, is_known, known):
         kind = "it is a folder" if os.path.isdir(path) else "unknown kind of file"
         if path.lower().endswith(MODELS):
             kind = "it is a trained model" + (", for the --model of commands that take one" if choices.is_command else "")
-        raise Failure(f"{path}: {kind}; known are {', '.join(known)}")
+        export = "; CAD programs export .step" if known == MESHES else ""
+        raise Failure(f"{path}: {kind}; known are {', '.join(known)}{export}")
 
 
 def scaled(data, scale, what):

@@ -223,7 +223,7 @@ refuses("mesh with faces", "detect.py", "--cad", "points.ply", "--scene", "scan.
 refuses("mesh with faces", "detect.py", "--cad", "scan.pcd", "--scene", "scan.pcd", *out)
 refuses("known are .pcd, .ply", "detect.py", "--cad", "part.stl", "--scene", "points.las", *out)
 refuses("it is a trained model, for the --model of commands that take one", "detect.py", "--cad", "model.vtpc", "--scene", "scan.pcd", *out)
-refuses("unknown kind of file; known are .off", "detect.py", "--cad", "image.png", "--scene", "scan.pcd", *out)
+refuses(".igs; CAD programs export .step", "detect.py", "--cad", "image.png", "--scene", "scan.pcd", *out)
 refuses("is an image: give a depth image with --depth", "detect.py", "--cad", "part.stl", "--scene", "image.png", *out)
 refuses("it is a folder", "detect.py", "--cad", "part.stl", "--scene", "model", *out)
 refuses("the name of a page ends in .html", "detect.py", "--cad", "part.stl", "--scene", "scan.pcd", "--report", "o.pdf", *out)

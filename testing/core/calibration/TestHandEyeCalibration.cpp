@@ -154,4 +154,9 @@ TEST(HandEyeCalibration, anAbsurdFitIsRefusedWithWhatItLooksLike)
   outliers[6].T_base_gripper.translation() *= 1e-3;
   const std::string one = error(outliers);
   EXPECT_TRUE(files::contains(one, "Without pair 7") && files::contains(one, "in metres")) << one;
+  // One that is wrong in a way of its own, so little that other explanations come within the limits.
+  outliers = good;
+  outliers[6].T_camera_target.translate(Eigen::Vector3d(140.0, 0.0, 0.0));
+  const std::string moved = error(outliers);
+  EXPECT_TRUE(files::contains(moved, "Without pair 7 the others fit: leave it out.")) << moved;
 }

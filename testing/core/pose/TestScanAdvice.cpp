@@ -91,7 +91,9 @@ TEST(ScanAdvice, OfNothingFoundTheStageThatHadNothing)
   EXPECT_TRUE(says(advice(), "Selection left none of 60 refined poses")) << advice();
   meam::ScanQuality coarse = goodScan();
   coarse.pointDistance = 2.0;
-  EXPECT_EQ(meam::scanAdvice(coarse, report, {}, 100.0).find("The part is 50 pixels long"), 0u);
+  const std::string ofCoarse = meam::scanAdvice(coarse, report, {}, 100.0);
+  EXPECT_EQ(ofCoarse.find("The part is 50 pixels long"), 0u);
+  EXPECT_NE(ofCoarse.find("has another unit"), std::string::npos);
   report.isCutShort = true;
   EXPECT_EQ(advice(), "") << "it is told that the time limit struck";
 }
