@@ -43,7 +43,7 @@ def add_options(parser, *ours):
 
 
 def parsed(parser, holds=False):
-    """The options, with `parts`, those that are looked for; PART is one of `cad` or `model`, a depth image is `depth`. `holds`: the
+    """The options, with `parts`, those that are looked for; PART is one of `cad` or `model`, and a depth image is `depth`. `holds`: the
     command needs the faces of a trained model's part."""
     options = parser.parse_intermixed_args()  # else PART and SCAN would have to stand side by side
     named = options.scene or options.depth
@@ -52,10 +52,12 @@ def parsed(parser, holds=False):
     if options.scene and options.depth or named and options.scan:
         parser.error("give one scan: SCAN, --scene or --depth")
     options.scan = named or options.scan
+    if options.part is not None and api.is_model(options.part) and not options.model:
+        options.part, options.model = None, [options.part]
     if not options.scan or (options.part is None) == (not options.cad and not options.model):
         parser.error("give PART and SCAN, or SCAN and --cad, or --model, once for each type of part")
     if options.part is not None:
-        setattr(options, "model" if api.is_model(options.part) else "cad", [options.part])
+        options.cad = [options.part]
     options.parts = options.model or options.cad
     is_image = options.scan.lower().endswith(scripting.DEPTH_IMAGES)
     if options.depth is None and options.camera and is_image:

@@ -168,6 +168,8 @@ check(len(states) == len(told.points) + len(told.unexplained), f"{len(states)} p
 check(data["legend"][0] == [f"explained: {(states == 0).sum()}", CYAN] and (states == 0).mean() > 0.5 and data["chosen"] == 1 and
       len(points_of(data["marks"])) == len(states) > 50, f"the points and their states: {data['legend']}")
 check("Found as rank 1" in read("why.html") and "Numbers of the steps" in read("why.html"), "the answer and the numbers")
+works("why.py", "plate.meam", "scan.pcd", "--cad", "plate.stl", "--pose", "found.txt:1", "--report", "faces.html")
+check("triangles" in data_of(read("faces.html"))["parts"][0], "the faces of the model's part")
 works("why.py", "plate.meam", "scan.pcd", "--at", "0", "0", "5", "--report", "nowhere.html")
 check(data_of(read("nowhere.html"))["poses"] == [] and "No part there" in read("nowhere.html"), "no part at the place")
 
