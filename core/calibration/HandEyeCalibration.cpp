@@ -31,6 +31,10 @@ constexpr double MuchBetter = 0.7; // times its residual another explanation has
 constexpr double WellFits =
   5.0; // mm: below it residuals tell nothing, and no outliers are looked for, which takes long
 
+// Of a fit that is one, a pair so far off: of errors that are normal the farthest of twenty is 2.2 medians off.
+constexpr double StandsOut = 5.0;    // medians
+constexpr double LeastOutlier = 2.0; // mm
+
 constexpr std::size_t FewestPairs = 3;
 constexpr double Degrees = 180.0 / M_PI;
 
@@ -447,13 +451,18 @@ HandEyeCalibration calibrateHandEye(const std::vector<HandEyePair>& pairs, Camer
 
 std::string describe(const HandEyeCalibration& calibration)
 {
+  std::vector<double> sorted = calibration.shifts;
+  std::sort(sorted.begin(), sorted.end());
+  const auto worst = std::max_element(calibration.shifts.begin(), calibration.shifts.end());
+  const bool standsOut = isSane(calibration) && *worst > std::max(StandsOut * sorted[sorted.size() / 2], LeastOutlier);
   char text[200];
   std::snprintf(text, sizeof(text),
     "The target stays within %.2f mm and %.2f degrees (root mean square of %zu pairs; at "
     "most %.2f mm and %.2f degrees).",
-    calibration.shift, calibration.turn, calibration.shifts.size(),
-    *std::max_element(calibration.shifts.begin(), calibration.shifts.end()),
+    calibration.shift, calibration.turn, calibration.shifts.size(), *worst,
     *std::max_element(calibration.turns.begin(), calibration.turns.end()));
-  return text;
+  return text + (standsOut ? " Pair " + std::to_string(worst - calibration.shifts.begin() + 1) +
+                               " stands out: leave it out, or measure it again."
+                           : std::string());
 }
 }

@@ -74,6 +74,12 @@ def parsed(parser, holds=False):
         parser.error("--no-image leaves the image out: give one of --image and --no-image")
     if options.image_camera and not options.image:
         parser.error("--image-camera is of an --image")
+    inputs = list(filter(os.path.exists, [options.scan, *options.cad, *options.model, *filter(None, (
+        options.camera, options.boundary, options.image, options.image_camera))]))
+    for name in ("out", "json", "matrices", "picture", "report"):
+        path = getattr(options, name, None)
+        if path and os.path.exists(path) and any(os.path.samefile(path, given) for given in inputs):
+            parser.error(f"--{name} {path} is what is read: give another name")
     return options
 
 

@@ -82,6 +82,14 @@ check([value for value, in field(ppfmeam.load("told.meam").data, "Calibration")]
 for name, change in (("none", lambda text: text.replace(",right", "")), ("word", lambda text: text.replace(",turned", ",perhaps")),
                      ("number", lambda text: text.replace(",0.25,", ",much,")), ("nan", lambda text: text.replace(",0.25,", ",nan,")), ("few", lambda text: "".join(text.splitlines(True)[:9]))):
     write(f"{name}.csv", change(read("judged.csv")))
+with open("judged.csv", newline="") as file, open("spreadsheet.csv", "w", newline="", encoding="utf-8-sig") as other:
+    lines = list(csv.reader(file))
+    column = lines[0].index("right")
+    for line in lines[1:]:
+        line[column] = {"1": "TRUE", "0": "0,0"}.get(line[column], line[column])
+    csv.writer(other, delimiter=";").writerows([lines[0], *([cell.replace(".", ",") for cell in line] for line in lines[1:])])
+check(works("calibrate.py", "spreadsheet.csv", "--model", "part.meam", "--out", "told.meam").split("\n")[:-2] == text.split("\n")[:-2],
+      "a table of a spreadsheet")
 refuses("no column right", "calibrate.py", "none.csv", "--model", "part.meam", "--out", "no.meam")
 refuses("'perhaps'", "calibrate.py", "word.csv", "--model", "part.meam", "--out", "no.meam")
 refuses("not a number", "calibrate.py", "number.csv", "--model", "part.meam", "--out", "no.meam")

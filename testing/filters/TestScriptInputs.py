@@ -107,6 +107,7 @@ refuses("--camera", "detect.py", *MODEL, "--depth", "depth.png", status=2)
 for option, name, other in (("--out", "poses.json", "--json"), ("--json", "poses.csv", "--out"), ("--matrices", "found.html", "--report")):
     refuses(f"give {other} {name}", "detect.py", *MODEL, "--scene", "scan.ply", option, name, status=2)
 refuses("scan.ply holds points alone: the part has to be a mesh", "detect.py", "--cad", "scan.ply", "--scene", "scan.ply")
+refuses("is what is read: give another name", "detect.py", *MODEL, "--scene", "scan.ply", "--json", "scan.ply", status=2)
 refuses("give one scan", "detect.py", *MODEL, "--depth", "depth.png", "--scene", "scan.ply", status=2)
 refuses("a number from 0 to 1, not 2", "detect.py", *MODEL, "--scene", "scan.ply", "--references", "2", status=2)
 refuses("a whole number, 0 or more, not few", "detect.py", *MODEL, "--scene", "scan.ply", "--poses", "few", status=2)

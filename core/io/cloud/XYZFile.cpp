@@ -84,6 +84,13 @@ bool numberOf(std::string_view word, char separator, float& value)
   return true;
 }
 
+/// Whether a zero stands before a number, as behind a decimal comma that is taken for a separator.
+bool isPadded(std::string_view word)
+{
+  word.remove_prefix(word.substr(0, 1) == "-" ? 1 : 0);
+  return word.size() > 1 && word[0] == '0' && std::isdigit(static_cast<unsigned char>(word[1]));
+}
+
 /// How many letters begin a comment in a line: two of //, one of # or %, 0 of none.
 std::size_t lettersOfComment(std::string_view line)
 {
@@ -134,10 +141,27 @@ bool isWhole(const std::array<int, 3>& columns)
   return std::all_of(columns.begin(), columns.end(), [](int column) { return column >= 0; });
 }
 
+/// Whether a line names columns by their numbers, behind one of a row's number without a name: 0, 1, 2, as tables of
+/// Python's pandas.
+bool isNumbered(const std::vector<std::string_view>& words)
+{
+  bool isSo = words.size() > 3 && words[0].empty();
+  for (std::size_t i = 1; isSo && i < words.size(); ++i)
+  {
+    isSo = words[i] == std::to_string(i - 1);
+  }
+  return isSo;
+}
+
 /// The columns by their names.
 Columns columnsOf(const std::vector<std::string_view>& words)
 {
   Columns columns;
+  if (isNumbered(words))
+  {
+    columns.point = { 1, 2, 3 };
+    return columns;
+  }
   columns.point.fill(-1);
   for (std::size_t i = 0; i < words.size(); ++i)
   {
@@ -198,6 +222,12 @@ public:
       }
       else
       {
+        split(this->Line, ',', this->Words);
+        if (isNumbered(this->Words))
+        {
+          heads.push_back(this->Line);
+          continue;
+        }
         this->Started = this->isNamed(heads) || this->isUnnamed(other);
         std::uint64_t count = 0;
         if (this->Started)
@@ -239,6 +269,11 @@ public:
     }
     for (std::size_t i = 0; i < this->Width; ++i)
     {
+      if (this->Separator == ',' && isPadded(this->Words[i]))
+      {
+        this->fail("has " + quoted(this->Words[i]) +
+                   " as a number: where numbers have decimal commas, separate them by semicolons, tabs or blanks");
+      }
       float value = NotMeasured;
       if ((!this->HasNames || this->Named.has(i)) && !numberOf(this->Words[i], this->Separator, value))
       {

@@ -19,6 +19,7 @@ import numpy
 from .. import dataset, evaluation, filters, scripting
 
 VERDICTS = {"1": (1, 0), "turned": (1, 2), "0": (0, 3)}  # CopyIsThere and PoseOutcome
+WRITTEN = {"1.0": "1", "0.0": "0", "true": "1", "false": "0"}  # by spreadsheets, and by pandas where some are empty
 CLASSES = ("Claim", "Least", "Most", "Poses", "Right", "Before", "After")
 ARRAYS = ("PlaceProbability", "Certainty", "Scene", "CopyIsThere", "PoseOutcome")
 
@@ -29,6 +30,8 @@ def in_dataset(options, model):
     objects = data.objects()
     if options.object is None and len(objects) > 1:
         raise scripting.Failure(f"{options.scans} has the objects {', '.join(map(str, objects))}: name the model's by --object")
+    if options.object is not None and options.object not in objects:
+        raise scripting.Failure(f"{options.scans} has no object {options.object}: its objects are {', '.join(map(str, objects))}")
     number = options.object or objects[0]
     run = evaluation.Evaluation(model, options.preset, 0, options.threads, 0, options.features)
     for scene in map(data.scene, options.scenes or data.scenes()):
@@ -42,20 +45,23 @@ def in_dataset(options, model):
 def confirmed(path):
     """The poses of a table that somebody has judged."""
     with open(path, newline="", encoding="utf-8-sig") as file:
-        table = csv.DictReader(file)
+        is_of_semicolons = ";" in file.readline()  # as spreadsheets write it where the comma is decimal
+        file.seek(0)
+        table = csv.DictReader(file, delimiter=";" if is_of_semicolons else ",")
         missing = {"scan", "place_probability", "probability", "right"}.difference(table.fieldnames or ())
         if missing:
             raise scripting.Failure(f"{path} has no column {', '.join(sorted(missing))}: give a table that `batch` wrote, and add "
                                     "the column `right` with 1, `turned` or 0")
         scenes, rows = {}, []
         for line in table:
-            verdict = (line["right"] or "").strip().lower()
+            verdict = (line["right"] or "").strip().lower().replace(",", ".")
+            verdict = WRITTEN.get(verdict, verdict)
             if not verdict or not line["probability"]:
                 continue
             if verdict not in VERDICTS:
                 raise scripting.Failure(f"{path}, line {table.line_num}: right is '{line['right']}', not 1, `turned` or 0")
             try:
-                place, probability = float(line["place_probability"]), float(line["probability"])
+                place, probability = (float(line[name].replace(",", ".")) for name in ("place_probability", "probability"))
                 if not (0 <= place <= 1 and 0 <= probability <= 1):
                     raise ValueError
             except ValueError:

@@ -51,6 +51,9 @@ TEST(XYZFile, columnsByTheirNames)
   ASSERT_EQ(labelled.cloud.size(), 2u) << "other columns need not be numbers";
   expectPoint(labelled, 1, 4, 5, 6);
   expectPoint(readXYZ("x,y,z\n1 2 3\n"), 0, 1, 2, 3);
+  const meam::MeasuredCloud numbered = readXYZ(",0,1,2\n0,1.0,2.0,3.0\n1,4.0,5.0,6.0\n");
+  ASSERT_EQ(numbered.cloud.size(), 2u) << "rows and columns by their numbers";
+  expectPoint(numbered, 1, 4, 5, 6);
   EXPECT_EQ(readXYZ("x y z r g b\n1 2 3 0 1 1\n").colors, (Colors{ 0, 255, 255 }));
 }
 
@@ -98,6 +101,10 @@ TEST(XYZFile, whatIsNoTextOfPoints)
   readXYZ.fails("time,value,size\n1,2,3\n", "name x, y and z among them");
   readXYZ.fails("first\nsecond\n1 2 3\n", "line 2 has 'second'");
   readXYZ.fails("x y z\n1 2 3\n4 5\n", "line 3 has 2 words, where the first point has 3");
+  readXYZ.fails(
+    "-148,399,-118,688,601,450\n-147,780,-118,050,601,400\n", "line 2 has '050' as a number: where numbers have");
+  readXYZ.fails("x,y,z\n1,050,2,000,3,100\n", "decimal commas");
+  EXPECT_EQ(readXYZ("0,-0.5,0\n").cloud.points[0], Eigen::Vector3f(0, -0.5f, 0));
   readXYZ.fails("1 2 3\r\n4 5 6\r\n4 b 6\r\n", "line 3 has 'b'");
   readXYZ.fails("1 2 3\n4 5 6 7 8 9\n", "line 2 has 6 words");
   readXYZ.fails("3\n1 2 3\n4 5 6\n", "promises 3 points and has 2");
