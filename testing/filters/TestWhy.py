@@ -52,8 +52,9 @@ detections = ppfmeam.detect(model, "scan.pcd", poses=2)
 for k in range(2):
     told = detections.why(rank=k + 1)
     again = detections.why(at=told.points[told.states.index("explained")])
-    check(all(each.rank == k + 1 and numpy.allclose(each.pose, detections.poses[k], atol=1e-6) for each in (told, again)),
-          f"{k + 1}: {told.verdict} {again.verdict}")
+    by_translation = ppfmeam.why(model, "scan.pcd", at=numpy.round(detections.poses[k, :3, 3], 1), poses=2)
+    check(all(each.rank == k + 1 and numpy.allclose(each.pose, detections.poses[k], atol=1e-6) for each in (told, again, by_translation)),
+          f"{k + 1}: {told.verdict} {again.verdict} {by_translation.verdict}")
 for arguments in ({}, {"rank": 1, "at": on}, {"rank": 3}):
     try:
         detections.why(**arguments)

@@ -23,7 +23,7 @@ std::optional<FoundPose> foundAt(
   for (const FoundPose& one : found)
   {
     const TrainedModel& model = *models.at(one.part);
-    const double distance = model.surfaceDistance.at((one.pose.T_scene_model.inverse() * point).cast<float>());
+    const double distance = distanceFrom(model, one.pose.T_scene_model, point);
     if (claimOf(one.pose, false) >= LikelyFound && distance < std::min(nearest, OnSurface * model.diameter))
     {
       at = one;

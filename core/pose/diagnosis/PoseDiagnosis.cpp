@@ -21,7 +21,8 @@ constexpr double FoundAngle = 5.0;    // degrees: what comes out and is turned b
 constexpr double LeastVisible = 0.25; // share of the part's side towards the sensor: with less visible it is hidden
 constexpr double LeastThere = 0.5;    // share of the unhidden surface: more seen past or unmeasured, and that is why
 constexpr double LeastEnclosed = 1.0; // patches of its body behind the bin's floor or a wall: more, and that is why
-constexpr double LookedFor = 0.5;     // of the diameter: points this near to a picked one, or to a middle, all vote
+constexpr double AtOrigin = 0.01; // of the diameter: what a pose's translation is rounded by, when somebody types it
+constexpr double LookedFor = 0.5; // of the diameter: points this near to a picked one, or to a middle, all vote
 constexpr PlaceTolerance SameResult{ 1e-3, 1e-2 }; // mm and degrees, of a search that is run again
 constexpr int PeaksLookedFor = 3; // candidates of each of them, when a place is looked for by a picked point
 
@@ -47,6 +48,12 @@ PrecisePoints inScene(const Points& points, const Eigen::Isometry3d& T_local_sce
   return mapped<Eigen::Vector3d>(
     points, [&](const Eigen::Vector3f& point) -> Eigen::Vector3d { return toScene * point.cast<double>(); });
 }
+}
+
+double distanceFrom(const TrainedModel& model, const Eigen::Isometry3d& T_scene_model, const Eigen::Vector3d& point)
+{
+  const Eigen::Vector3d inModel = T_scene_model.inverse() * point;
+  return inModel.norm() < AtOrigin * model.diameter ? 0.0 : model.surfaceDistance.at(inModel.cast<float>());
 }
 
 PoseDiagnosis::PoseDiagnosis(
@@ -75,9 +82,8 @@ Diagnosis PoseDiagnosis::ofFound(const Pose& pose, int rank, const Progress& pro
 Diagnosis PoseDiagnosis::atPoint(
   const Eigen::Vector3d& point, const Progress& progress, const Poses& found, const std::vector<int>& ranks)
 {
-  const Eigen::Vector3f place = (this->InScene.T_local_scene() * point).cast<float>();
-  const auto distanceTo = [&](const Pose& pose)
-  { return this->Model.surfaceDistance.at(pose.T_scene_model.inverse().cast<float>() * place); };
+  const Eigen::Vector3d place = this->InScene.T_local_scene() * point;
+  const auto distanceTo = [&](const Pose& pose) { return distanceFrom(this->Model, pose.T_scene_model, place); };
   const auto isOn = [&](const Pose& pose) { return distanceTo(pose) < OnSurface * this->Model.diameter; };
   const auto firstOn = [&](const Poses& poses) { return std::find_if(poses.begin(), poses.end(), isOn); };
   const auto isLikely = [](const Pose& pose) { return claimOf(pose, false) >= LikelyFound; };
@@ -98,8 +104,9 @@ Diagnosis PoseDiagnosis::atPoint(
   }
   PoseDetectionSettings voting = this->Detection.detection;
   voting.peaksPerReference = std::max(voting.peaksPerReference, PeaksLookedFor);
-  const Poses candidates = CandidateSearch(this->InScene, this->Model, voting)
-                             .near(place, LookedFor * this->Model.diameter, subProgress(progress, 0.0, 0.3));
+  const Poses candidates =
+    CandidateSearch(this->InScene, this->Model, voting)
+      .near(place.cast<float>(), LookedFor * this->Model.diameter, subProgress(progress, 0.0, 0.3));
   const Poses nearby = rankCandidates(
     candidates, this->InScene, this->Model, withoutLimits(this->Detection), nullptr, subProgress(progress, 0.3, 0.6));
   const auto best = firstOn(nearby);

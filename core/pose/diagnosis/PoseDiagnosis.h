@@ -11,6 +11,9 @@ namespace meam
 inline constexpr double OnSurface = 0.025; ///< of the diameter: a point this near to a pose's surface lies on it
 inline constexpr double LikelyFound = 0.5; ///< a pose that is there more likely than not: it is drawn
 
+/// How far a point is from a part, mm: from its surface, and 0 at its origin, where the translation of its pose is.
+double distanceFrom(const TrainedModel& model, const Eigen::Isometry3d& T_scene_model, const Eigen::Vector3d& point);
+
 /// Why a part did not come out, or came out as it did.
 enum class LossCause
 {

@@ -275,6 +275,16 @@ TEST(PoseDiagnosis, APickedPointIsThatOfThePoseOnIt)
   EXPECT_EQ(lost, 2);
 }
 
+TEST(PoseDiagnosis, APointAtThePartsOriginIsOnIt)
+{
+  const meam::TrainedModel& model = scenes::bracket();
+  const Eigen::Isometry3d T = Here * Eigen::Translation3d(3, -2, 1);
+  const auto distance = [&](double x, double y, double z)
+  { return meam::distanceFrom(model, T, T * Eigen::Vector3d(x, y, z)); };
+  EXPECT_EQ(distance(0.3, 0, 0), 0.0);
+  EXPECT_GT(distance(0, 0, 500), 1.0); // as far as distances are known
+}
+
 TEST(PoseDiagnosis, OfAPoseThatCameOutItIsToldWhyThatDid)
 {
   // Wrong, beside a copy, with its surface in the air: what another search would make of it does not count.
