@@ -54,6 +54,7 @@ ours = [(row["probability"], row["R"], row["t"]) for row in poses if row["scan"]
 check([(row["score"], row["R"], row["t"]) for row in rows_of("one.csv")] == ours, "the poses are not those of detect")
 works("detect.py", "1", f"{place}/000000", "--out", "image.csv")
 check([(row["score"], row["R"], row["t"]) for row in rows_of("image.csv")] == ours, "of an image and an object of the dataset other poses")
+refuses("has no object 5: its objects are 1", "calibrate.py", "bins", "--model", "plate.meam", "--out", "x.meam", "--object", "5")
 refuses("leave --camera and --image out", "detect.py", "1", f"{place}/000000", "--camera", "bins/camera.json")
 of_scans = rows_of("poses.scans.csv")
 check([row["scan"] for row in of_scans] == names and all(float(row["find_s"]) > 0 for row in of_scans), "the times")
