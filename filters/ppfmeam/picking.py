@@ -79,9 +79,13 @@ class Picks(Rows):
         scripting.require_folder_of(path)
         if not name.endswith(".json"):
             return self.page().save(self.require_found(), path, self)
+        return scripting.write_json(os.fspath(path), self.content())
+
+    def content(self):
+        """All picks, for JSON."""
         columns = [column for column in (*self.COLUMNS, "robot_transforms") if getattr(self, column) is not None]
         rows = [dict(zip(columns, row)) for row in zip(*(getattr(self, column) for column in columns))]
-        return scripting.write_json(os.fspath(path), {"report": self.report, "advice": self.advice, "parts": self.part_names(), "picks": rows})
+        return {"report": self.report, "advice": self.advice, "parts": self.part_names(), "picks": rows}
 
     def show(self):
         """Opens a page as Detections.show() does, with the gripper at the best pick of the pose that is chosen."""
@@ -90,7 +94,11 @@ class Picks(Rows):
     def parts_shown(self):
         """Of each type its name and mesh, for the page."""
         from .report import content
-        return [content.Part(name, inputs.vtk_mesh(each.part.vertices, each.part.triangles)) for name, each in zip(self.part_names(), self.sets)]
+        return list(map(content.Part, self.part_names(), self.shapes()))
+
+    def shapes(self):
+        """The parts' meshes, of VTK."""
+        return [inputs.vtk_mesh(each.part.vertices, each.part.triangles) for each in self.sets]
 
     def part_names(self):
         """Of the types of part; none of poses alone."""

@@ -232,6 +232,8 @@ check(data["chosen"] == (rows[0]["instances"] + 1 if rows[0]["possible"] else 0)
 check(html.escape(json.loads(read("picks.json"))["report"]) in read("picks.html") and "plate in scan.pcd" in read("picks.html"), "the report")
 check("ppfmeam pick --cad plate.stl" in read("picks.html") and data["why"].startswith("ppfmeam why plate.stl scan.pcd"), data["why"])
 check(os.path.getsize("picks.png") > 10000, "the picture")
+works("pick.py", "plate.stl", "scan.pcd", "--no-bin", "--cup", "6", "--json", "picks.txt")
+check(read("picks.txt") == read("picks.json"), "JSON under any name")
 
 os.utime("scan.pcd", (0, 0))
 try:

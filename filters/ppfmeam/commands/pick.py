@@ -5,8 +5,6 @@ import os
 import shlex
 import sys
 
-import numpy
-
 import ppfmeam
 from ppfmeam import api, asked, choices, inputs, picture, scripting
 
@@ -54,11 +52,10 @@ def grasps_of(of, names, gripper, lengths):
 def print_picks(picks, names):
     """The best pick of each copy: where the gripper goes."""
     transforms = picks.transforms if picks.robot_transforms is None else picks.robot_transforms
-    possible = numpy.flatnonzero(picks.possible)
-    _, first = numpy.unique(picks.instances[possible], return_index=True)
-    if len(first):
+    rows = [row for row in picks.best() if picks.possible[row]]
+    if rows:
         print("pick  of rank  grasp          clearance  x, y, z (mm)                    quaternion (x y z w)")
-    for k in possible[numpy.sort(first)]:
+    for k in rows:
         which = "" if len(names) == 1 else f"  {names[picks.parts[k]]}"
         x, y, z = transforms[k][:3, 3]
         turn = " ".join(f"{value:8.5f}" for value in scripting.quaternion_of(transforms[k]))
@@ -95,9 +92,9 @@ def main():
     print(picks.report, advice)
     print_picks(picks, names)
     if options.json:
-        picks.save(options.json)
+        scripting.write_json(options.json, {**picks.content(), "advice": advice, "parts": names})
     if options.picture:
-        picture.save(options.picture, inputs.to_vtk(found.scan())[0], found.data, *of.shapes())
+        picture.save(options.picture, inputs.to_vtk(found.scan())[0], found.data, *picks.shapes())
     if options.report:
         again = shlex.join(["ppfmeam", "pick", *sys.argv[1:]]), why_command(options, options.scan, options.image, options.boundary)
         notebook.save(found, options.report, picks, (os.path.basename(options.scan), *again))
