@@ -145,7 +145,8 @@ MEAM_EXPORT Detections detect(const std::vector<Model>& models, const Scan& scan
   const Progress& progress = {});
 
 /// Fits what a model says of its poses to poses of one's own scans of which it is known whether they are right: of a
-/// few dozen scans all that came out, or those that were looked at. Throws Error for fewer than 20 poses or 5 scans.
+/// few dozen scans all that came out, or those that were looked at. A calibration takes the place of the model's one
+/// before, by which the poses were told. Throws Error for fewer than 20 poses or 5 scans.
 MEAM_EXPORT CalibratedModel calibrate(const Model& model, const std::vector<JudgedPose>& poses);
 
 /// Reads what Model::save() wrote.

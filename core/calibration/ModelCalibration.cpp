@@ -30,12 +30,18 @@ double logOddsOf(double probability)
   return std::clamp(std::log(probability) - std::log1p(-probability), -Extreme, Extreme);
 }
 
-/// What was said, in log odds, and whether it is so.
+/// What the search counted, in log odds, and whether it is so.
 struct Claim
 {
   double logOdds;
   bool holds;
 };
+
+/// Of what a calibrated model said.
+Claim claimOf(double said, const LogisticRegression& before, bool holds)
+{
+  return { std::clamp(before.countedOf(logOddsOf(said)), -Extreme, Extreme), holds };
+}
 
 double probabilityBy(const LogisticRegression& line, double said) { return probabilityOf(line.logOdds(said)); }
 
@@ -100,17 +106,7 @@ LogisticRegression fitted(const std::vector<Claim>& claims)
   return free.slope >= LeastSlope ? free : newton(claims, { 0.0, LeastSlope }, false);
 }
 
-/// `second` of what `first` makes of a claim.
-LogisticRegression chained(const LogisticRegression& first, const LogisticRegression& second)
-{
-  return { second.logOdds(first.constant), second.slope * first.slope };
-}
-
 bool hasRotations(const JudgedPose& pose) { return pose.certainty < 1.0; }
-
-Claim placeOf(const JudgedPose& pose) { return { logOddsOf(pose.placeProbability), pose.isThere }; }
-
-Claim rotationOf(const JudgedPose& pose) { return { logOddsOf(pose.certainty), pose.isTurnedRight }; }
 
 void check(const std::vector<JudgedPose>& poses, std::size_t scenes)
 {
@@ -138,8 +134,9 @@ std::vector<int> foldsOf(const std::vector<JudgedPose>& poses, const std::set<in
     { return static_cast<int>(std::distance(scenes.begin(), scenes.find(pose.scene))) % Folds; });
 }
 
-/// Lines for each fold, fitted on all others; the identity for all where that is better for the scans left out.
-std::vector<LogisticRegression> heldOut(const std::vector<Claim>& claims, const std::vector<int>& folds)
+/// Lines for each fold, fitted on all others; `before` for all where that is better for the scans left out.
+std::vector<LogisticRegression> heldOut(
+  const std::vector<Claim>& claims, const std::vector<int>& folds, const LogisticRegression& before)
 {
   std::vector<LogisticRegression> lines;
   double gain = 0.0;
@@ -158,19 +155,19 @@ std::vector<LogisticRegression> heldOut(const std::vector<Claim>& claims, const 
     {
       if (folds[k] == fold)
       {
-        gain += lossOf(probabilityOf(claims[k].logOdds), claims[k].holds) -
+        gain += lossOf(probabilityBy(before, claims[k].logOdds), claims[k].holds) -
                 lossOf(probabilityBy(lines.back(), claims[k].logOdds), claims[k].holds);
       }
     }
   }
-  return gain > 0.0 ? lines : std::vector<LogisticRegression>(Folds);
+  return gain > 0.0 ? lines : std::vector<LogisticRegression>(Folds, before);
 }
 
-/// `before` followed by the line of all claims, where that of the folds was worth something.
-LogisticRegression calibrated(
-  const LogisticRegression& before, const std::vector<Claim>& claims, const std::vector<LogisticRegression>& ofFolds)
+/// Of a copy that is turned right, one that is turned wrongly, and none.
+double lossOf(const JudgedPose& pose)
 {
-  return ofFolds.front().isIdentity() ? before : chained(before, fitted(claims));
+  return lossOf(pose.placeProbability, pose.isThere) +
+         (pose.isThere && hasRotations(pose) ? lossOf(pose.certainty, pose.isTurnedRight) : 0.0);
 }
 
 /// One judged pose with what is said of it before and after.
@@ -227,38 +224,48 @@ CalibrationReport fitModelCalibration(const std::vector<JudgedPose>& poses, cons
   std::vector<int> foldsOfRotations;
   for (std::size_t k = 0; k < poses.size(); ++k)
   {
-    places.push_back(placeOf(poses[k]));
+    places.push_back(claimOf(poses[k].placeProbability, before.place, poses[k].isThere));
     if (poses[k].isThere && hasRotations(poses[k]))
     {
-      rotations.push_back(rotationOf(poses[k]));
+      rotations.push_back(claimOf(poses[k].certainty, before.rotation, poses[k].isTurnedRight));
       foldsOfRotations.push_back(folds[k]);
     }
   }
-  const std::vector<LogisticRegression> placeLines = heldOut(places, folds);
+  const std::vector<LogisticRegression> placeLines = heldOut(places, folds, before.place);
   const std::vector<LogisticRegression> rotationLines =
-    heldOut(rotations, foldsOfRotations); // of few or none the identity
+    heldOut(rotations, foldsOfRotations, before.rotation); // of few or none `before`
+  const bool keepsPlaces = placeLines.front() == before.place,
+             keepsRotations = rotationLines.front() == before.rotation;
 
   CalibrationReport report;
-  report.calibration = { calibrated(before.place, places, placeLines),
-    calibrated(before.rotation, rotations, rotationLines), before.poses + static_cast<int>(poses.size()) };
+  report.calibration = before;
+  if (!keepsPlaces || !keepsRotations)
+  {
+    report.calibration = { keepsPlaces ? before.place : fitted(places),
+      keepsRotations ? before.rotation : fitted(rotations), static_cast<int>(poses.size()) };
+  }
   std::vector<Told> ofPlaces, ofPoses;
   for (std::size_t k = 0; k < poses.size(); ++k)
   {
     const JudgedPose& pose = poses[k];
-    const double place = probabilityBy(placeLines[folds[k]], places[k].logOdds);
-    const double certainty =
-      hasRotations(pose) ? probabilityBy(rotationLines[folds[k]], logOddsOf(pose.certainty)) : pose.certainty;
-    ofPlaces.push_back({ pose.placeProbability, place, pose.isThere });
-    ofPoses.push_back(
-      { pose.placeProbability * pose.certainty, place * certainty, pose.isThere && pose.isTurnedRight });
+    JudgedPose after = pose;
+    if (!keepsPlaces)
+    {
+      after.placeProbability = probabilityBy(placeLines[folds[k]], places[k].logOdds);
+    }
+    if (!keepsRotations && hasRotations(pose))
+    {
+      after.certainty =
+        probabilityBy(rotationLines[folds[k]], claimOf(pose.certainty, before.rotation, pose.isTurnedRight).logOdds);
+    }
+    ofPlaces.push_back({ pose.placeProbability, after.placeProbability, pose.isThere });
+    ofPoses.push_back({ pose.placeProbability * pose.certainty, after.placeProbability * after.certainty,
+      pose.isThere && pose.isTurnedRight });
+    report.lossBefore += lossOf(pose) / static_cast<double>(poses.size());
+    report.lossAfter += lossOf(after) / static_cast<double>(poses.size());
   }
   addClasses(ofPlaces, false, report.classes);
   addClasses(ofPoses, true, report.classes);
-  for (const Told& one : ofPoses)
-  {
-    report.lossBefore += lossOf(one.before, one.holds) / static_cast<double>(poses.size());
-    report.lossAfter += lossOf(one.after, one.holds) / static_cast<double>(poses.size());
-  }
   return report;
 }
 }

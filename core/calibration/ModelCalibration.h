@@ -15,6 +15,10 @@ struct LogisticRegression
   /// What was counted, of a logarithm of the odds.
   double countedOf(double logOdds) const { return (logOdds - this->constant) / this->slope; }
   bool isIdentity() const { return this->constant == 0.0 && this->slope == 1.0; }
+  bool operator==(const LogisticRegression& other) const
+  {
+    return this->constant == other.constant && this->slope == other.slope;
+  }
 };
 
 /// [0, 1], from the logarithm of odds.
@@ -58,13 +62,14 @@ struct ClaimClass
 struct CalibrationReport
 {
   ModelCalibration calibration;
-  double lossBefore = 0.0; ///< mean logarithmic loss of probabilities, nats a pose,
+  double lossBefore = 0.0; ///< mean logarithmic loss of right, turned wrongly, and wrong, nats a pose,
   double lossAfter = 0.0;  ///< and of the calibrated ones
   std::vector<ClaimClass> classes;
 };
 
-/// Fits a calibration to judged poses of a model that has `before` already: what was said is said by that. Places and
-/// rotations are each calibrated where that makes claims about scans left out better, and stay as they are otherwise.
+/// Fits a calibration to judged poses of a model that has `before` already: what was said is said by that, and is taken
+/// back to what the search itself counted, so that the same poses teach the same again. Places and rotations are each
+/// calibrated anew where that makes claims about scans left out better, and stay as they are otherwise.
 /// Throws Error for too few poses or scans, and for claims that are no probabilities.
 CalibrationReport fitModelCalibration(const std::vector<JudgedPose>& poses, const ModelCalibration& before = {});
 }

@@ -454,6 +454,12 @@ def read_model(path):
     return read_with(vtkXMLPartitionedDataSetCollectionReader(), path)
 
 
+def calibration_of(model):
+    """Constant and slope of places and of rotations; those that change nothing of a model that was not calibrated."""
+    array = model.GetFieldData().GetArray("Calibration")
+    return tuple(array.GetValue(k) for k in range(4)) if array else (0.0, 1.0, 0.0, 1.0)
+
+
 class Training:
     """The steps from a clean mesh to the trained model, connected; parameters may be changed before model()."""
 

@@ -90,6 +90,21 @@ with open("judged.csv", newline="") as file, open("spreadsheet.csv", "w", newlin
     csv.writer(other, delimiter=";").writerows([lines[0], *([cell.replace(".", ",") for cell in line] for line in lines[1:])])
 check(works("calibrate.py", "spreadsheet.csv", "--model", "part.meam", "--out", "told.meam").split("\n")[:-2] == text.split("\n")[:-2],
       "a table of a spreadsheet")
+# The table says by which calibration it was written: the same poses teach the same again, whichever model they are given to.
+with open("judged.csv", newline="") as file, open("noted.csv", "w", newline="") as other:
+    header, *lines = csv.reader(file)
+    csv.writer(other).writerows([[*header, "calibration"], *([*line, "0.0 1.0 0.0 1.0"] for line in lines)])
+again = works("calibrate.py", "noted.csv", "--model", "told.meam", "--out", "again.meam")
+check("they stay as they are" in again, again)
+check([value for value, in field(ppfmeam.load("again.meam").data, "Calibration")] == numbers, "nothing is added")
+write("odd.csv", read("noted.csv").replace("0.0 1.0 0.0 1.0", "0.0 1.0"))
+refuses("four numbers", "calibrate.py", "odd.csv", "--model", "part.meam", "--out", "no.meam")
+write("two.csv", read("judged.csv").replace("scan1,1,", "scan1,2,"))
+refuses("objects 1, 2", "calibrate.py", "two.csv", "--model", "part.meam", "--out", "no.meam")
+check("on 36 poses" in works("calibrate.py", "two.csv", "--model", "part.meam", "--out", "one.meam", "--object", "1"), "of one object")
+write("exchanged.csv", "scan,place_probability,probability,right\n" +
+      "".join(f"scan{k % 8},{said},{said},{int(said < 0.5)}\n" for k in range(40) for said in (0.02, 0.98)))
+check("exchanged" in works("calibrate.py", "exchanged.csv", "--model", "part.meam", "--out", "exchanged.meam"), "1 for 0")
 refuses("no column right", "calibrate.py", "none.csv", "--model", "part.meam", "--out", "no.meam")
 refuses("'perhaps'", "calibrate.py", "word.csv", "--model", "part.meam", "--out", "no.meam")
 refuses("not a number", "calibrate.py", "number.csv", "--model", "part.meam", "--out", "no.meam")

@@ -49,6 +49,7 @@ class Search:
     def __init__(self, options, plan):
         self.source, self.objects = scans.source(options), plan.objects
         models = [scripting.read_model(path) for path in plan.models]
+        self.calibrations = list(map(scripting.calibration_of, models))
         self.finder = finding.Finder(models, options)
         self.pages = pages.Pages(options, plan.shapes, models)
 
@@ -63,7 +64,7 @@ class Search:
                 read = time.monotonic()
                 poses = self.finder.find(data.scene, None, data.image, data.image_camera)
                 found = time.monotonic()
-                rows, advice = table.rows_of(poses, self.objects), told.advice(poses)
+                rows, advice = table.rows_of(poses, self.objects, self.calibrations), told.advice(poses)
                 self.pages.write(scan[0], data, poses)
             except scripting.Failure as error:
                 failure = str(error)

@@ -5,12 +5,13 @@ import os
 
 from .. import scripting
 
-POSES = ("scan", "obj_id", "rank", "score", "place_probability", "probability", "R", "t", "failure")
+POSES = ("scan", "obj_id", "rank", "score", "place_probability", "probability", "R", "t", "calibration", "failure")
 SCANS = ("scan", "poses", "read_s", "find_s", "process", "warning", "failure", "advice")
 
 
-def rows_of(poses, objects):
-    """Of poses, best first, what stands in the table after the scan's name. `objects`: the numbers of the parts."""
+def rows_of(poses, objects, calibrations):
+    """Of poses, best first, what stands in the table after the scan's name. `objects`: the numbers of the parts;
+    `calibrations`: of their models."""
     array = poses.GetPointData().GetArray
     part, scores, places, probabilities, transforms = map(
         array, ("PartId", "Score", "PlaceProbability", "Probability", "Transform"))
@@ -18,8 +19,9 @@ def rows_of(poses, objects):
     for i in range(poses.GetNumberOfPoints()):
         T = transforms.GetTuple(i)
         R, t = (*T[0:3], *T[4:7], *T[8:11]), (T[3], T[7], T[11])
-        rows.append((objects[part.GetValue(i)] if part else objects[0], i + 1, repr(scores.GetValue(i)),
-                     repr(places.GetValue(i)), repr(probabilities.GetValue(i)), " ".join(map(repr, R)), " ".join(map(repr, t)), ""))
+        of = part.GetValue(i) if part else 0
+        rows.append((objects[of], i + 1, repr(scores.GetValue(i)), repr(places.GetValue(i)), repr(probabilities.GetValue(i)),
+                     *(" ".join(map(repr, numbers)) for numbers in (R, t, calibrations[of])), ""))
     return rows
 
 
@@ -46,7 +48,7 @@ def write(path, names, lines):
     def poses():
         for name in names:
             line = lines[name]
-            yield from ([name, *row] for row in line["rows"] or [["", "", "", "", "", "", "", line["failure"]]])
+            yield from ([name, *row] for row in line["rows"] or [[*[""] * (len(POSES) - 2), line["failure"]]])
 
     def scans():
         for name in names:

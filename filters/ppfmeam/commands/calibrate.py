@@ -8,7 +8,7 @@ there and the pose is turned wrongly, 0 where it is wrong, and nothing where you
 
 `said` is the mean of what the model says of the poses of a class now. `calibrated` is what it says when it is calibrated on
 other scans: every fifth scan is left out in turn. Places and rotations are each changed only where that is better for the
-scans left out."""
+scans left out. A calibration takes the place of the one before."""
 import argparse
 import csv
 import math
@@ -18,6 +18,7 @@ import numpy
 
 from .. import dataset, evaluation, filters, scripting
 
+LEAST_SLOPE = 0.1  # of the fit: poses that are said to be surer are right no more often
 VERDICTS = {"1": (1, 0), "turned": (1, 2), "0": (0, 3)}  # CopyIsThere and PoseOutcome
 WRITTEN = {"1.0": "1", "0.0": "0", "true": "1", "false": "0"}  # by spreadsheets, and by pandas where some are empty
 CLASSES = ("Claim", "Least", "Most", "Poses", "Right", "Before", "After")
@@ -42,8 +43,24 @@ def in_dataset(options, model):
     return run.judge.GetOutputDataObject(2)
 
 
-def confirmed(path):
-    """The poses of a table that somebody has judged."""
+def said_by(probability, line, before):
+    """What a model with this line says, where one with another said this."""
+    if tuple(line) == tuple(before) or not 0 < probability < 1:
+        return probability
+    counted = (math.log(probability / (1 - probability)) - before[0]) / before[1]
+    return float(1 / (1 + numpy.exp(-line[0] - line[1] * counted)))
+
+
+def numbers_of(words, least, most):
+    """Of cells, which spreadsheets may have written with decimal commas."""
+    values = [float(word.replace(",", ".")) for word in words]
+    if not all(least <= value <= most for value in values):
+        raise ValueError
+    return values
+
+
+def judged_lines(path, number):
+    """Of the table the lines with a verdict on poses of one object: of each its place in the file, its cells and the verdict."""
     with open(path, newline="", encoding="utf-8-sig") as file:
         is_of_semicolons = ";" in file.readline()  # as spreadsheets write it where the comma is decimal
         file.seek(0)
@@ -52,7 +69,7 @@ def confirmed(path):
         if missing:
             raise scripting.Failure(f"{path} has no column {', '.join(sorted(missing))}: give a table that `batch` wrote, and add "
                                     "the column `right` with 1, `turned` or 0")
-        scenes, rows = {}, []
+        objects, lines = set(), []
         for line in table:
             verdict = (line["right"] or "").strip().lower().replace(",", ".")
             verdict = WRITTEN.get(verdict, verdict)
@@ -60,14 +77,30 @@ def confirmed(path):
                 continue
             if verdict not in VERDICTS:
                 raise scripting.Failure(f"{path}, line {table.line_num}: right is '{line['right']}', not 1, `turned` or 0")
-            try:
-                place, probability = (float(line[name].replace(",", ".")) for name in ("place_probability", "probability"))
-                if not (0 <= place <= 1 and 0 <= probability <= 1):
-                    raise ValueError
-            except ValueError:
-                raise scripting.Failure(f"{path}, line {table.line_num}: a probability is not a number from 0 to 1") from None
-            certainty = min(probability / place, 1.0) if place > 0 else 1.0
-            rows.append((place, certainty, scenes.setdefault(line["scan"], len(scenes)), *VERDICTS[verdict]))
+            objects.add(line.get("obj_id") or "1")
+            if number is None or line.get("obj_id") in (None, "", str(number)):
+                lines.append((table.line_num, line, verdict))
+    if number is None and len(objects) > 1:
+        raise scripting.Failure(f"{path} has poses of the objects {', '.join(sorted(objects))}: name the model's by --object")
+    return lines
+
+
+def confirmed(path, number, calibration):
+    """The poses of a table that somebody has judged, as a model with this calibration tells them."""
+    scenes, rows = {}, []
+    for at, line, verdict in judged_lines(path, number):
+        try:
+            place, probability = numbers_of((line["place_probability"], line["probability"]), 0, 1)
+        except ValueError:
+            raise scripting.Failure(f"{path}, line {at}: a probability is not a number from 0 to 1") from None
+        certainty = min(probability / place, 1.0) if place > 0 else 1.0
+        try:
+            before = numbers_of((line.get("calibration") or "").split(), -math.inf, math.inf) or calibration
+            place, certainty = (said_by(said, calibration[k:k + 2], before[k:k + 2]) for k, said in ((0, place), (2, certainty)))
+        except (ValueError, IndexError, ZeroDivisionError):
+            raise scripting.Failure(f"{path}, line {at}: calibration is '{line['calibration']}', not the four numbers that `batch` "
+                                    "wrote") from None
+        rows.append((place, certainty, scenes.setdefault(line["scan"], len(scenes)), *VERDICTS[verdict]))
     values = numpy.array(rows, float).reshape(-1, len(ARRAYS))
     poses = scripting.poses_of(numpy.tile(numpy.eye(4), (len(rows), 1, 1)))
     for name, column in zip(ARRAYS, values.T):
@@ -102,7 +135,7 @@ def main():
     parser.add_argument("scans", metavar="SCANS", help="a BOP dataset with true poses, or a table of `batch` with a column `right`")
     parser.add_argument("--model", required=True, help="the trained model, calibrated before or not")
     parser.add_argument("--out", required=True, help="the calibrated model to write: NAME.meam or NAME.vtpc; may be that of --model")
-    parser.add_argument("--object", type=scripting.count, help="of a dataset: the number of the model's object, where there are several")
+    parser.add_argument("--object", type=scripting.count, help="the number of the model's object, where SCANS has several")
     parser.add_argument("--split", default="test", help="of a dataset: folder of the scenes (default: %(default)s)")
     parser.add_argument("--scenes", type=evaluation.numbers, help="of a dataset: such as 0-4,7 (default: all)")
     parser.add_argument("--json", metavar="FILE", help="write what is printed as JSON")
@@ -117,7 +150,8 @@ def main():
     model = scripting.read_model(options.model)
     calibration = filters.vtkMEAMModelCalibration()
     calibration.SetInputDataObject(0, model)
-    calibration.SetInputDataObject(1, in_dataset(options, model) if os.path.isdir(options.scans) else confirmed(options.scans))
+    calibration.SetInputDataObject(1, in_dataset(options, model) if os.path.isdir(options.scans)
+                                   else confirmed(options.scans, options.object, scripting.calibration_of(model)))
     calibrated = scripting.update(calibration).GetOutputDataObject(0)
     table = calibration.GetOutputDataObject(1)
     classes = classes_of(table)
@@ -128,6 +162,10 @@ def main():
     constant, slope, turned_constant, turned_slope, poses = (numbers.GetValue(k) for k in range(5))
     if math.isclose(before, after, abs_tol=1e-12):
         print("the probabilities hold in these scans as well as calibrated ones would: they stay as they are")
+    for what, line in (("a copy is there", slope), ("the rotation is right", turned_slope)):
+        if line <= LEAST_SLOPE:
+            print(f"where the model is surer that {what}, it is not right more often: see that the verdicts are of these poses, and 1 "
+                  "and 0 not exchanged")
     scripting.write_model(calibrated, options.out)
     print(f"{options.out}: calibrated on {poses:.0f} poses; {line_words('places', constant, slope)}, "
           f"{line_words('rotations', turned_constant, turned_slope)}")

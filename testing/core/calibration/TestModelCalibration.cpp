@@ -91,14 +91,48 @@ TEST(ModelCalibration, ClaimsStayInTheirOrder)
   EXPECT_EQ(report.calibration.place.slope, 0.1);
 }
 
-TEST(ModelCalibration, ASecondFitFollowsTheFirst)
+TEST(ModelCalibration, ASecondFitTakesThePlaceOfTheFirst)
 {
   const auto first = meam::fitModelCalibration(spread([](double x) { return 1.0 + 1.6 * x; })).calibration;
   const auto second = meam::fitModelCalibration(spread([](double x) { return 0.5 + x; }), first).calibration;
   EXPECT_NEAR(second.place.slope, first.place.slope, 0.02);
   EXPECT_NEAR(second.place.constant, first.place.constant - 0.5, 0.05);
-  EXPECT_EQ(second.poses, first.poses + 20 * 17 * 40);
+  EXPECT_EQ(second.poses, 20 * 17 * 40);
   EXPECT_NEAR(first.place.countedOf(first.place.logOdds(0.7)), 0.7, 1e-12);
+}
+
+TEST(ModelCalibration, TheSamePosesTeachTheSameAgain)
+{
+  // Few, so that what is known before weighs: told by the first calibration they ask for no second.
+  auto judged = alike(10, 4, 1, 0.9, 0.8);
+  for (std::size_t k = 0; k < judged.size(); ++k)
+  {
+    judged[k].isTurnedRight = k % 8 != 0;
+  }
+  const auto first = meam::fitModelCalibration(judged).calibration;
+  ASSERT_FALSE(first.place.isIdentity());
+  for (JudgedPose& pose : judged)
+  {
+    const double counted = std::log(pose.placeProbability / (1.0 - pose.placeProbability));
+    pose.placeProbability = meam::probabilityOf(first.place.logOdds(counted));
+    pose.certainty = first.certaintyOf(pose.certainty);
+  }
+  const auto report = meam::fitModelCalibration(judged, first);
+  EXPECT_EQ(report.calibration.place, first.place);
+  EXPECT_EQ(report.calibration.rotation, first.rotation);
+  EXPECT_EQ(report.calibration.poses, 40);
+  EXPECT_EQ(report.lossBefore, report.lossAfter);
+}
+
+TEST(ModelCalibration, TheLossIsOfRightTurnedAndWrong)
+{
+  auto judged = alike(5, 4, 3, 0.8, 0.9); // of a scan two right, one turned, one wrong
+  for (std::size_t k = 0; k < judged.size(); ++k)
+  {
+    judged[k].isTurnedRight = k % 4 < 2;
+  }
+  const double loss = -(2.0 * std::log(0.8 * 0.9) + std::log(0.8 * 0.1) + std::log(0.2)) / 4.0;
+  EXPECT_NEAR(meam::fitModelCalibration(judged).lossBefore, loss, 1e-12);
 }
 
 TEST(ModelCalibration, RotationsAreOfPosesThatAreThereAndCanBeTurned)
