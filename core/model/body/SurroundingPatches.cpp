@@ -112,7 +112,12 @@ PartPatches patchesOf(const TrainedModel& model, const std::vector<std::uint8_t>
   const auto numberOf = [&](const Eigen::Vector3f& point)
   {
     const Cell cell = cellOf(point, model.symmetries, PatchSide * model.diameter);
-    return numbers.emplace(cell, static_cast<int>(numbers.size())).first->second;
+    const auto [place, isNew] = numbers.emplace(cell, static_cast<int>(numbers.size()));
+    if (isNew)
+    {
+      patches.isRing.push_back(!model.symmetries.continuous.empty() && cell[1] > 0);
+    }
+    return place->second;
   };
   patches.ofSamples = mapped<int>(model.surface.points, numberOf);
   patches.begins.push_back(0);

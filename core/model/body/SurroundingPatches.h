@@ -20,6 +20,7 @@ inline constexpr float NearlyFarthest = 0.98f;
 struct PartPatches
 {
   int count = 0;
+  std::vector<char> isRing;   ///< of each: it goes around a round part, and is as much as several
   std::vector<int> ofSamples; ///< of each sample of the surface
   Points beside;              ///< where the faces of the samples would go on if they did not end
   std::vector<int> ofBeside;  ///< of each of these

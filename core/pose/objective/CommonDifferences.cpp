@@ -19,6 +19,7 @@ constexpr double LeastFacing = 0.35;     // cosine towards the sensor: flatter s
 constexpr int PointsOfPatch = 2;         // and no fewer show it on a copy
 constexpr int CopiesOfPatch = 4;         // show it: fewer may be wrong at the same place
 constexpr double MostOfCopies = 0.5;     // of them, on which a patch differs
+constexpr int PatchesOfRing = 2;         // at least, and what chance makes does not go around a part
 constexpr int DifferentByChance = 1;     // and one more of so many that are told of:
 constexpr int ToldOfEachDifferent = 100; // of right parts two of four hundred were, at most
 
@@ -89,6 +90,8 @@ public:
     }
   }
 
+  const std::vector<char>& isRing() const { return this->OfPart->isRing; }
+
 private:
   void addPart(const Eigen::Vector3f& point, const Eigen::Vector3f& towards, float behind, PatchPoints& patch) const
   {
@@ -150,7 +153,7 @@ private:
 };
 
 /// Patches that differ on most copies, beyond chance.
-int differentOnMost(const std::vector<Patches>& ofCopies)
+int differentOnMost(const std::vector<Patches>& ofCopies, const std::vector<char>& isRing)
 {
   struct Copies
   {
@@ -172,11 +175,15 @@ int differentOnMost(const std::vector<Patches>& ofCopies)
     }
   }
   int told = 0, different = 0;
-  for (const Copies& copies : patches)
+  for (std::size_t k = 0; k < patches.size(); ++k)
   {
+    const Copies& copies = patches[k];
     const bool isTold = copies.showing >= CopiesOfPatch;
     told += isTold;
-    different += isTold && copies.different > MostOfCopies * copies.showing;
+    if (isTold && copies.different > MostOfCopies * copies.showing)
+    {
+      different += isRing[k] ? PatchesOfRing : 1;
+    }
   }
   return std::max(different - DifferentByChance - (told + ToldOfEachDifferent / 2) / ToldOfEachDifferent, 0);
 }
@@ -193,6 +200,6 @@ CommonDifferences commonDifferences(
   std::vector<Patches> ofPart(poses.size()), besidePart(poses.size());
   parallelForEach(
     static_cast<int>(poses.size()), threads, {}, [&](int i) { copies.collect(i, ofPart[i], besidePart[i]); });
-  return { differentOnMost(ofPart), differentOnMost(besidePart) };
+  return { differentOnMost(ofPart, copies.isRing()), differentOnMost(besidePart, copies.isRing()) };
 }
 }

@@ -9,6 +9,14 @@ namespace
 {
 meam::TriangleMesh blockOnCorner() { return parts::blockOnPlate(false); }
 
+meam::TriangleMesh pin(double radiusOfHead)
+{
+  return parts::revolved(
+    { { 0.0, 0.0 }, { radiusOfHead, 0.0 }, { radiusOfHead, 3.0 }, { 4.0, 3.0 }, { 4.0, 50.0 }, { 0.0, 50.0 } }, 48);
+}
+
+meam::TriangleMesh pinWithHead() { return pin(8.0); }
+
 /// A mesh with its vertices at so much along an axis moved.
 meam::TriangleMesh stretched(meam::TriangleMesh mesh, int axis, float from, float to)
 {
@@ -50,12 +58,12 @@ Places inRow(int copies, double distance)
   return places;
 }
 
-/// In what copies of another plate at these places, and what else lies there, differ from a plate with a block on one
-/// corner.
+/// In what copies of another part at these places, and what else lies there, differ from a part: from a plate with a
+/// block on one corner.
 meam::CommonDifferences differencesOn(const Places& places, const meam::TriangleMesh& other,
-  const std::vector<scenes::Copy>& beside = {}, std::size_t most = 20)
+  const std::vector<scenes::Copy>& beside = {}, std::size_t most = 20,
+  const meam::TrainedModel& model = scenes::trained<blockOnCorner>())
 {
-  const meam::TrainedModel& model = scenes::trained<blockOnCorner>();
   std::vector<scenes::Copy> lying = beside;
   for (const Eigen::Isometry3d& place : places)
   {
@@ -90,6 +98,19 @@ TEST(CommonDifferences, ABlockThatIsElsewhereIsMissing)
   const int missing = differencesOn(apart(4), parts::blockOnPlate(true)).missing;
   EXPECT_GE(missing, 2);
   EXPECT_LE(missing, 5 * 4);
+}
+
+TEST(CommonDifferences, ARingIsSeveralPatches)
+{
+  // The head of a pin, 3 mm high: one ring of patches of 3 mm.
+  const meam::TrainedModel& model = scenes::trained<pinWithHead>();
+  Places places = apart(4);
+  for (Eigen::Isometry3d& place : places)
+  {
+    place = place * Eigen::Translation3d(0.0, 0.0, 8.0) * Eigen::AngleAxisd(M_PI / 2.0, Eigen::Vector3d::UnitY());
+  }
+  EXPECT_EQ(differencesOn(places, pinWithHead(), {}, 20, model).missing, 0);
+  EXPECT_GE(differencesOn(places, pin(4.0), {}, 20, model).missing, 1);
 }
 
 TEST(CommonDifferences, ThreeCopiesTellNothing)
