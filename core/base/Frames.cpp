@@ -5,6 +5,7 @@
 #include "base/Bounds.h"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/SVD>
 
 #include <algorithm>
 #include <limits>
@@ -84,10 +85,34 @@ PrecisePoints withoutStrays(const PrecisePoints& points)
 
 bool isRigid(const Eigen::Matrix4d& matrix)
 {
-  constexpr double tolerance = 1e-3;
+  constexpr double tolerance = 2e-3; // of columns' lengths and products: three decimals leave up to 0.00174
   const Eigen::Matrix3d R = matrix.topLeftCorner<3, 3>();
   return matrix.allFinite() && R.isUnitary(tolerance) && R.determinant() > 0.0 &&
          matrix.row(3) == Eigen::RowVector4d(0.0, 0.0, 0.0, 1.0);
+}
+
+Eigen::Matrix3d nearestRotation(const Eigen::Matrix3d& matrix)
+{
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Eigen::Matrix3d U = svd.matrixU();
+  U.col(2) *= (U * svd.matrixV().transpose()).determinant() < 0.0 ? -1.0 : 1.0;
+  return U * svd.matrixV().transpose();
+}
+
+std::optional<Eigen::Isometry3d> rigidOf(const Eigen::Matrix4d& matrix)
+{
+  constexpr double asWritten = 1e-6; // rounding of single precision: such a matrix stays the same to the last bit
+  if (!isRigid(matrix))
+  {
+    return std::nullopt;
+  }
+  Eigen::Isometry3d T;
+  T.matrix() = matrix;
+  if (!T.linear().isUnitary(asWritten))
+  {
+    T.linear() = nearestRotation(T.linear());
+  }
+  return T;
 }
 
 Eigen::Isometry3d transformOf(const double* numbers)

@@ -3,10 +3,18 @@
 
 #include "base/PointCloud.h"
 
+#include <optional>
+
 namespace meam
 {
 /// Whether a matrix is a rotation and a translation, up to the rounding of entries that were printed with few digits.
 bool isRigid(const Eigen::Matrix4d& matrix);
+
+/// That rotation and translation, exactly where the matrix was printed with few digits; none of another matrix.
+std::optional<Eigen::Isometry3d> rigidOf(const Eigen::Matrix4d& matrix);
+
+/// The rotation nearest to a matrix.
+Eigen::Matrix3d nearestRotation(const Eigen::Matrix3d& matrix);
 
 /// The transform of 16 numbers, row by row.
 Eigen::Isometry3d transformOf(const double* numbers);

@@ -46,13 +46,14 @@ using HandEyePairs = std::vector<HandEyePair>;
 
 Eigen::Isometry3d requireRigid(const Eigen::Isometry3d& T, const char* name, std::size_t pair)
 {
-  if (!isRigid(T.matrix()))
+  const std::optional<Eigen::Isometry3d> rigid = rigidOf(T.matrix());
+  if (!rigid)
   {
     throw Error("The " + std::string(name) + " of pair " + std::to_string(pair + 1) +
                 " is not a rotation and a translation: check its 4x4 matrix.");
   }
-  Eigen::Isometry3d exact = T;
-  exact.linear() = Eigen::Quaterniond(T.linear()).normalized().toRotationMatrix();
+  Eigen::Isometry3d exact = *rigid;
+  exact.linear() = Eigen::Quaterniond(rigid->linear()).normalized().toRotationMatrix();
   return exact;
 }
 
@@ -100,11 +101,8 @@ Eigen::Isometry3d meanOf(const std::vector<Eigen::Isometry3d>& poses)
   {
     sum += pose.matrix() / static_cast<double>(poses.size());
   }
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(sum.topLeftCorner<3, 3>(), Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Eigen::Matrix3d U = svd.matrixU();
-  U.col(2) *= (U * svd.matrixV().transpose()).determinant() < 0.0 ? -1.0 : 1.0;
   Eigen::Isometry3d mean = Eigen::Isometry3d::Identity();
-  mean.linear() = U * svd.matrixV().transpose();
+  mean.linear() = nearestRotation(sum.topLeftCorner<3, 3>());
   mean.translation() = sum.topRightCorner<3, 1>();
   return mean;
 }
@@ -186,7 +184,7 @@ std::optional<Eigen::Isometry3d> solved(
   {
     return {};
   }
-  T.linear() = meanOf({ T }).linear(); // a rotation to the last digit
+  T.linear() = nearestRotation(T.linear());
   return T;
 }
 

@@ -26,14 +26,14 @@ constexpr std::string_view Separators = ",; \t";
 Eigen::Isometry3d poseOf(
   const std::string& path, const double* numbers, double unit, const char* name, std::size_t pair)
 {
-  Eigen::Isometry3d T = transformOf(numbers);
-  if (!isRigid(T.matrix()))
+  std::optional<Eigen::Isometry3d> T = rigidOf(transformOf(numbers).matrix());
+  if (!T)
   {
     failHandEye(path,
       std::string("has a ") + name + " that is not a rotation and a translation: pair " + std::to_string(pair + 1));
   }
-  T.translation() *= unit;
-  return T;
+  T->translation() *= unit;
+  return *T;
 }
 
 HandEyeFile readJSON(const std::string& path, const std::string& bytes)

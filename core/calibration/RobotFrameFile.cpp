@@ -40,14 +40,13 @@ Eigen::Isometry3d poseOf(const std::string& path, const std::vector<double>& num
   {
     failRobotFrame(path, "has " + std::to_string(numbers.size()) + " numbers as " + Entry + " instead of 16");
   }
-  Eigen::Isometry3d T = transformOf(numbers.data());
-  if (!isRigid(T.matrix()))
+  std::optional<Eigen::Isometry3d> T = rigidOf(transformOf(numbers.data()).matrix());
+  if (!T)
   {
     failRobotFrame(path, std::string("has a ") + Entry + " that is not a rotation and a translation");
   }
-  T.linear() = Eigen::Quaterniond(T.linear()).normalized().toRotationMatrix();
-  T.translation() *= unit;
-  return T;
+  T->translation() *= unit;
+  return *T;
 }
 
 /// Numbers by the names that lead to them, as in "transform.translation.x".

@@ -170,11 +170,12 @@ Eigen::Isometry3d poseOf(const nlohmann::json& entry, const std::string& path)
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.linear() = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(R.data());
   pose.translation() = Eigen::Map<const Eigen::Vector3d>(t.data());
-  if (!isRigid(pose.matrix()))
+  const std::optional<Eigen::Isometry3d> rigid = rigidOf(pose.matrix());
+  if (!rigid)
   {
     failBOP(path, "has a cam_R_m2c that is not a rotation");
   }
-  return pose;
+  return *rigid;
 }
 }
 

@@ -117,11 +117,12 @@ Eigen::Isometry3d placeOf(const std::string& path, const nlohmann::json& entries
   {
     failCamera(path, "has only one of R and T: the camera's place needs both, or T_camera_scene");
   }
-  if (!isRigid(T_camera_scene.matrix()))
+  const std::optional<Eigen::Isometry3d> rigid = rigidOf(T_camera_scene.matrix());
+  if (!rigid)
   {
     failCamera(path, "has a place of the camera that is not a rotation and a translation");
   }
-  return T_camera_scene;
+  return *rigid;
 }
 
 /// Focal lengths and principal point.

@@ -83,14 +83,15 @@ Symmetries readModelsInfo(const std::string& path, int objectId)
   for (const nlohmann::json& matrix : listUnder(*entry, "symmetries_discrete", path))
   {
     const std::vector<double> numbers = numbersOf(matrix, path, "discrete symmetry");
-    if (numbers.size() != 16 || !isRigid(transformOf(numbers.data()).matrix()))
+    const std::optional<Eigen::Isometry3d> S =
+      numbers.size() == 16 ? rigidOf(transformOf(numbers.data()).matrix()) : std::nullopt;
+    if (!S)
     {
       failModelsInfo(path, "has a discrete symmetry that is not a 4x4 matrix of a rotation and a translation");
     }
-    const Eigen::Isometry3d S = transformOf(numbers.data());
-    if (!S.isApprox(Eigen::Isometry3d::Identity()))
+    if (!S->isApprox(Eigen::Isometry3d::Identity()))
     {
-      symmetries.discrete.push_back(S);
+      symmetries.discrete.push_back(*S);
     }
   }
   for (const nlohmann::json& turn : listUnder(*entry, "symmetries_continuous", path))

@@ -68,13 +68,12 @@ constexpr std::string_view BOPHeader = "scene_id,im_id,obj_id,score,R,t,time";
 
 Eigen::Isometry3d requirePose(const Eigen::Matrix4d& matrix, const std::string& what, std::size_t place)
 {
-  if (!isRigid(matrix))
+  const std::optional<Eigen::Isometry3d> pose = rigidOf(matrix);
+  if (!pose)
   {
     throw Error(what + "has a matrix that is not a rotation and a translation: number " + std::to_string(place) + ".");
   }
-  Eigen::Isometry3d pose;
-  pose.matrix() = matrix;
-  return pose;
+  return *pose;
 }
 
 /// The numbers of a text, between blanks.

@@ -33,6 +33,29 @@ TEST(Frames, RigidMatricesAreRotationsAndTranslations)
   }
 }
 
+TEST(Frames, RotationsOfThreeDecimalsAreTakenAndMadeExact)
+{
+  std::mt19937 random(7);
+  for (int k = 0; k < 500; ++k)
+  {
+    const Eigen::Isometry3d T = parts::motion(random, 500.0);
+    const auto printed = [&T](double steps)
+    {
+      Eigen::Matrix4d matrix = T.matrix();
+      matrix.topLeftCorner<3, 3>() = (steps * matrix.topLeftCorner<3, 3>()).array().round() / steps;
+      return matrix;
+    };
+    const auto exact = meam::rigidOf(printed(1e3));
+    ASSERT_TRUE(exact);
+    EXPECT_TRUE(exact->linear().isUnitary(1e-12));
+    EXPECT_LT((exact->linear() - T.linear()).cwiseAbs().maxCoeff(), 1.5e-3);
+    EXPECT_EQ(meam::rigidOf(T.matrix())->matrix(), T.matrix()) << "what is exact stays to the last bit";
+    Eigen::Matrix4d scaled = printed(1e3);
+    scaled.topLeftCorner<3, 3>() *= 1.002;
+    EXPECT_FALSE(meam::rigidOf(scaled)) << scaled;
+  }
+}
+
 TEST(Frames, ThePrincipalFrameMovesWithThePoints)
 {
   std::mt19937 random(4);
