@@ -36,6 +36,24 @@ constexpr double StandsOut = 5.0;    // medians
 constexpr double LeastOutlier = 2.0; // mm
 
 constexpr std::size_t FewestPairs = 3;
+
+// Of two poses of a gripper that are one: mm, and of rotations what is printed with three decimals.
+constexpr double SamePose = 1e-3;
+
+// How sure the place is. Simulated, what is told is 1 to 1.3 times the error of 8 pairs and more, and of 5 twice.
+constexpr std::size_t FewestToTell = 5; // places of the gripper; of 4 it is 3 to 20 times the error
+constexpr std::size_t MostLeftOut = 40; // groups that are left out in turn: more only take longer
+constexpr double Unsure = 3.0;          // mm, of a place that no gripper should be sent by
+constexpr double MostUnsure = 50.0;     // mm, of a place that is none
+
+// A target of another size. Noise alone takes a quarter off the residual of five pairs at most, of 4 a half.
+constexpr double MuchBetterScaled = 0.5; // times the residual
+constexpr double ScaleStep = 0.05;       // the squared residual is a parabola of the scale, whatever the step
+constexpr double MostScale = 2.0;        // no one mistakes a board's size by more; units have other words
+
+// Where both poses of all pairs are inverse, camera and target change places.
+constexpr double Near = 300.0; // mm, of what a gripper holds
+constexpr double Far = 500.0;  // mm, as far as no gripper holds it
 constexpr double Degrees = 180.0 / M_PI;
 
 const std::pair<cv::HandEyeCalibrationMethod, const char*> Methods[] = { { cv::CALIB_HAND_EYE_PARK, "Park" },
@@ -124,6 +142,7 @@ HandEyeCalibration judged(
     targets.push_back(T_holder_robot * T_robot_camera * pair.T_camera_target);
   }
   HandEyeCalibration result;
+  result.mount = mount;
   result.T_robot_camera = T_robot_camera;
   result.T_holder_target = meanOf(targets);
   for (const Eigen::Isometry3d& target : targets)
@@ -232,6 +251,95 @@ HandEyePairs shifted(const HandEyePairs& pairs, int lag)
     }
   }
   return result;
+}
+
+HandEyePairs scaledTargets(const HandEyePairs& pairs, double scale)
+{
+  return changed(pairs, [scale](HandEyePair& pair) { pair.T_camera_target.translation() *= scale; });
+}
+
+/// How many times as large as its poses say the target is, if the pairs fit much better then; else 1.
+double targetScaleOf(const HandEyePairs& pairs, CameraMount mount)
+{
+  const auto squares = [&](double scale)
+  {
+    const HandEyePairs scaled = scaledTargets(pairs, scale);
+    const auto found = solved(scaled, mount, cv::CALIB_HAND_EYE_PARK); // its rotation does not change with the scale
+    return found ? std::pow(judged(*found, scaled, mount).shift, 2) : std::numeric_limits<double>::quiet_NaN();
+  };
+  const double less = squares(1.0 - ScaleStep), now = squares(1.0), more = squares(1.0 + ScaleStep);
+  const double scale = 1.0 + 0.5 * ScaleStep * (less - more) / (less - 2.0 * now + more);
+  const bool isBetter = scale < MostScale && scale > 1.0 / MostScale && pairs.size() >= FewestToTell &&
+                        squares(scale) < MuchBetterScaled * MuchBetterScaled * now;
+  return isBetter ? scale : 1.0;
+}
+
+std::string scaleWords(double scale)
+{
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.3g", scale);
+  return "if the target is " + std::string(text) +
+         " times as large as its poses say: check the size of the board's squares, or of the part.";
+}
+
+/// Of each pair the place of its gripper, counted from 0.
+std::vector<std::size_t> placesOf(const HandEyePairs& pairs)
+{
+  std::vector<std::size_t> places;
+  HandEyePairs apart;
+  for (const HandEyePair& pair : pairs)
+  {
+    const auto same = std::find_if(apart.begin(), apart.end(),
+      [&pair](const HandEyePair& other)
+      { return (pair.T_base_gripper.matrix() - other.T_base_gripper.matrix()).cwiseAbs().maxCoeff() <= SamePose; });
+    places.push_back(static_cast<std::size_t>(same - apart.begin()));
+    if (same == apart.end())
+    {
+      apart.push_back(pair);
+    }
+  }
+  return places;
+}
+
+/// HandEyeCalibration::uncertainty, of a calibration by one of the methods.
+double uncertaintyOf(const HandEyePairs& pairs, const HandEyeCalibration& calibration)
+{
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<std::size_t> places = placesOf(pairs);
+  const std::size_t groups = std::min(1 + *std::max_element(places.begin(), places.end()), MostLeftOut);
+  if (groups < FewestToTell)
+  {
+    return unknown;
+  }
+  const auto method = std::find_if(std::begin(Methods), std::end(Methods),
+    [&calibration](const auto& each) { return each.second == calibration.method; });
+  Eigen::Vector3d seen = Eigen::Vector3d::Zero();
+  for (const HandEyePair& pair : pairs)
+  {
+    seen += pair.T_camera_target.translation() / static_cast<double>(pairs.size());
+  }
+  PrecisePoints points;
+  for (std::size_t group = 0; group < groups; ++group)
+  {
+    HandEyePairs others;
+    for (std::size_t k = 0; k < pairs.size(); ++k)
+    {
+      if (places[k] % groups != group)
+      {
+        others.push_back(pairs[k]);
+      }
+    }
+    const auto found = solved(others, calibration.mount, method->first);
+    if (!found)
+    {
+      return unknown;
+    }
+    points.push_back(*found * seen);
+  }
+  const double count = static_cast<double>(groups);
+  const Eigen::Vector3d mean = std::accumulate(points.begin(), points.end(), Eigen::Vector3d(0.0, 0.0, 0.0)) / count;
+  return std::sqrt((count - 1.0) / count *
+                   sumOf(points, [&mean](const Eigen::Vector3d& point) { return (point - mean).squaredNorm(); }));
 }
 
 struct Mistake
@@ -380,6 +488,10 @@ std::string suspicionOf(const HandEyePairs& pairs, CameraMount mount, const Hand
   {
     all.consider([&] { return changed(pairs, mistake.undo); }, mount, "They fit if " + mistake.what + ": change that.");
   }
+  if (const double scale = targetScaleOf(pairs, mount); scale != 1.0)
+  {
+    all.consider([&] { return scaledTargets(pairs, scale); }, mount, "They fit " + scaleWords(scale));
+  }
   for (std::size_t lag = 1; 2 * lag <= pairs.size() && pairs.size() - lag > FewestPairs; ++lag)
   {
     for (const int sign : { 1, -1 })
@@ -407,6 +519,34 @@ std::string suspicionOf(const HandEyePairs& pairs, CameraMount mount, const Hand
          " is the farthest off; check that each pair has the gripper and the target of the same moment, and that the "
          "target is where the mount says.";
 }
+
+/// How sure the place is, and what may be wrong with it, each behind a blank.
+std::string certaintyWords(const HandEyeCalibration& calibration)
+{
+  constexpr const char* advice = ": take twenty pairs, the gripper turned by 30 degrees and more about several axes.";
+  char sure[96], swapped[256];
+  std::snprintf(
+    sure, sizeof(sure), " Where it was seen the camera's place is sure to about %.2g mm", calibration.uncertainty);
+  std::string words = std::isnan(calibration.uncertainty)
+                        ? std::string(" So few places of the gripper do not tell how sure the camera's is") + advice
+                        : sure + std::string(calibration.uncertainty > Unsure ? advice : ".");
+  if (calibration.targetScale != 1.0)
+  {
+    words += " The pairs fit much better " + scaleWords(calibration.targetScale);
+  }
+  const bool onHand = calibration.mount == CameraMount::Hand;
+  const double camera = calibration.T_robot_camera.translation().norm();
+  const double target = calibration.T_holder_target.translation().norm();
+  if (onHand ? camera > Far && target < Near : camera < Near && target > Far)
+  {
+    std::snprintf(swapped, sizeof(swapped),
+      " This puts the camera %.0f mm from the robot's %s and the target %.0f mm from its %s: if that is wrong, both "
+      "poses of all pairs are inverse.",
+      camera, onHand ? "gripper" : "base", target, onHand ? "base" : "gripper");
+    words += swapped;
+  }
+  return words;
+}
 }
 
 HandEyeCalibration calibrateHandEye(const std::vector<HandEyePair>& pairs, CameraMount mount)
@@ -425,9 +565,16 @@ HandEyeCalibration calibrateHandEye(const std::vector<HandEyePair>& pairs, Camer
     targets.push_back(requireRigid(pair.T_camera_target, "T_camera_target", exact.size()));
     exact.push_back({ grippers.back(), targets.back() });
   }
+  const std::vector<std::size_t> places = placesOf(exact);
+  const std::size_t apart = 1 + *std::max_element(places.begin(), places.end());
+  if (apart < FewestPairs)
+  {
+    throw Error("Hand-eye calibration needs 3 places of the gripper or more, better 20: the " +
+                std::to_string(pairs.size()) + " pairs have " + std::to_string(apart) + ", over and over.");
+  }
   requireTurns(grippers, "gripper", LeastTurn);
   requireTurns(targets, "target", LeastTurn);
-  const std::optional<HandEyeCalibration> best = bestOf(exact, mount);
+  std::optional<HandEyeCalibration> best = bestOf(exact, mount);
   if (!best)
   {
     throw Error("No place of the camera fits the pairs of poses: check that each has the gripper and the target of the "
@@ -444,6 +591,12 @@ HandEyeCalibration calibrateHandEye(const std::vector<HandEyePair>& pairs, Camer
     throw Error(
       "The pairs of poses put " + doubt + ". Set 'units' of the JSON to the poses' unit, or write them in mm.");
   }
+  best->targetScale = targetScaleOf(exact, mount);
+  best->uncertainty = uncertaintyOf(exact, *best);
+  if (best->uncertainty > MostUnsure)
+  {
+    throw Error("The pairs of poses leave the camera's place open. " + describe(*best));
+  }
   return *best;
 }
 
@@ -459,8 +612,9 @@ std::string describe(const HandEyeCalibration& calibration)
     "most %.2f mm and %.2f degrees).",
     calibration.shift, calibration.turn, calibration.shifts.size(), *worst,
     *std::max_element(calibration.turns.begin(), calibration.turns.end()));
-  return text + (standsOut ? " Pair " + std::to_string(worst - calibration.shifts.begin() + 1) +
-                               " stands out: leave it out, or measure it again."
-                           : std::string());
+  return text + (isSane(calibration) ? certaintyWords(calibration) : std::string()) +
+         (standsOut ? " Pair " + std::to_string(worst - calibration.shifts.begin() + 1) +
+                        " stands out: leave it out, or measure it again."
+                    : std::string());
 }
 }

@@ -78,6 +78,88 @@ TEST(HandEyeCalibration, theResidualTellsTheNoise)
   EXPECT_TRUE(files::contains(meam::describe(one), "Pair 8 stands out")) << meam::describe(one);
 }
 
+TEST(HandEyeCalibration, aTargetOfAnotherSizeIsNamed)
+{
+  for (const CameraMount mount : { CameraMount::Beside, CameraMount::Hand })
+  {
+    for (const double size : { 0.9, 0.95, 1.02, 1.05, 1.1 })
+    {
+      std::vector<HandEyePair> pairs = pairsOf(mount, 20, 0.3);
+      for (HandEyePair& pair : pairs)
+      {
+        pair.T_camera_target.translation() /= size;
+      }
+      std::string told = files::errorOf([&] { meam::calibrateHandEye(pairs, mount); }); // beyond the limits
+      told = told.empty() ? meam::describe(calibrated(pairs, mount)) : told;
+      char times[32];
+      std::snprintf(times, sizeof(times), "is %.3g", size);
+      EXPECT_TRUE(files::contains(told, times) && files::contains(told, "the board's squares")) << size << ": " << told;
+    }
+    for (const int count : { 3, 8, 20 })
+    {
+      EXPECT_EQ(calibrated(pairsOf(mount, count, 0.5), mount).targetScale, 1.0) << count;
+    }
+  }
+}
+
+TEST(HandEyeCalibration, howSureThePlaceIsIsTold)
+{
+  const auto told = [](const std::vector<HandEyePair>& pairs)
+  { return meam::describe(calibrated(pairs, CameraMount::Beside)); };
+  const std::vector<HandEyePair> good = pairsOf(CameraMount::Beside, 20, 0.3);
+  EXPECT_LT(calibrated(good, CameraMount::Beside).uncertainty, 2.0);
+  EXPECT_TRUE(files::contains(told(good), "is sure to about") && !files::contains(told(good), "twenty")) << told(good);
+  const std::string few = told(pairsOf(CameraMount::Beside, 3, 0.3));
+  EXPECT_TRUE(files::contains(few, "So few places of the gripper")) << few;
+  std::vector<HandEyePair> repeated = pairsOf(CameraMount::Beside, 3, 0.3);
+  for (std::size_t k = 0; k < 9; ++k)
+  {
+    repeated.push_back(repeated[k]);
+  }
+  EXPECT_TRUE(files::contains(told(repeated), "So few places of the gripper")) << told(repeated);
+  std::vector<HandEyePair> two(good.begin(), good.begin() + 2);
+  two.insert(two.end(), two.begin(), two.end());
+  const std::string over = files::errorOf([&] { meam::calibrateHandEye(two); });
+  EXPECT_TRUE(files::contains(over, "the 4 pairs have 2")) << over;
+  // The gripper turned by 6 degrees about the middle: the more noise, the less sure, up to a place that is none.
+  const auto turned = [](double noise)
+  {
+    std::vector<HandEyePair> pairs = pairsOf(CameraMount::Beside, 12, noise);
+    for (HandEyePair& pair : pairs)
+    {
+      const Eigen::Isometry3d off = (Camera.inverse() * pair.T_base_gripper * Target).inverse() * pair.T_camera_target;
+      const Eigen::AngleAxisd turn(pair.T_base_gripper.linear());
+      pair.T_base_gripper.linear() = Eigen::AngleAxisd(0.03 * turn.angle(), turn.axis()).toRotationMatrix();
+      pair.T_camera_target = Camera.inverse() * pair.T_base_gripper * Target * off;
+    }
+    return pairs;
+  };
+  EXPECT_TRUE(files::contains(told(turned(0.2)), "twenty pairs")) << told(turned(0.2));
+  const std::string open = files::errorOf([&] { meam::calibrateHandEye(turned(3.0)); });
+  EXPECT_TRUE(files::contains(open, "leave the camera's place open")) << open;
+}
+
+TEST(HandEyeCalibration, aCameraAtTheBaseIsDoubted)
+{
+  for (const CameraMount mount : { CameraMount::Beside, CameraMount::Hand })
+  {
+    const Eigen::Isometry3d gripped = placed({ 15, -8, 120 }, 0.7, { -0.3, 1, 0.5 });
+    const bool onHand = mount == CameraMount::Hand;
+    const Eigen::Isometry3d camera = onHand ? gripped : Camera, target = onHand ? Camera : gripped;
+    std::vector<HandEyePair> pairs = pairsOf(mount, 10), inverse;
+    for (HandEyePair& pair : pairs)
+    {
+      const Eigen::Isometry3d T_holder = onHand ? pair.T_base_gripper.inverse() : pair.T_base_gripper;
+      pair.T_camera_target = camera.inverse() * T_holder * target;
+      inverse.push_back({ pair.T_base_gripper.inverse(), pair.T_camera_target.inverse() });
+    }
+    const std::string right = meam::describe(calibrated(pairs, mount));
+    EXPECT_FALSE(files::contains(right, "are inverse")) << right;
+    const std::string doubted = meam::describe(calibrated(inverse, mount));
+    EXPECT_TRUE(files::contains(doubted, "both poses of all pairs are inverse")) << doubted;
+  }
+}
+
 TEST(HandEyeCalibration, tooLittleIsSaid)
 {
   const auto error = [](const std::vector<HandEyePair>& pairs)
