@@ -28,6 +28,13 @@ constexpr double OnGrid = 0.05;          // pixels that points are off their sen
 constexpr double GridRounding = 0.01;    // and so few by the rounding of their coordinates;
 constexpr double Nearer = 3.0;           // off the grid from another place they are so many times as far
 
+// Of a grid whose width and height are swapped: medians over pairs of neighbours.
+constexpr int FewestLines = 16;               // rows and columns: a few lines of a laser may lie far apart
+constexpr std::size_t MostPairs = 10000;      // they tell medians to a percent or two
+constexpr std::size_t FewestNeighbours = 100; // pairs of measured points
+constexpr double FarApart = 5.0;              // times as far as in the swapped grid neighbours in columns are,
+constexpr double AsNear = 3.0;                // where they are at most so many times as far as those in rows
+
 // What points alone do not tell, and parts that are their own mirror image would be found either way.
 constexpr const char* LeftHanded = " If their axes are left-handed, as Unity's, negate y.";
 
@@ -193,6 +200,47 @@ void requireSurface(const PointRaster& raster, const Points& points)
               "check the file, and the viewpoint where one is given.");
 }
 
+/// The median distance (mm) of points that are so many places apart in their list; none of too few that are measured.
+std::optional<double> medianApart(const Points& points, std::size_t places)
+{
+  std::vector<float> distances;
+  for (std::size_t i = 0; i + places < points.size(); i += 1 + points.size() / MostPairs)
+  {
+    const float distance = (points[i + places] - points[i]).norm();
+    if (std::isfinite(distance))
+    {
+      distances.push_back(distance);
+    }
+  }
+  if (distances.size() < FewestNeighbours)
+  {
+    return std::nullopt;
+  }
+  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+  std::nth_element(distances.begin(), middle, distances.end());
+  return *middle;
+}
+
+/// Points in rows of the grid's height are a grid whose columns hold neighbours, too: those of its width are none.
+void requireShape(const OrganizedCloud& scan)
+{
+  if (scan.width == scan.height || std::min(scan.width, scan.height) < FewestLines)
+  {
+    return;
+  }
+  const auto rows = medianApart(scan.points, 1);
+  const auto columns = medianApart(scan.points, static_cast<std::size_t>(scan.width));
+  const auto swapped = medianApart(scan.points, static_cast<std::size_t>(scan.height));
+  if (rows && columns && swapped && *columns > FarApart * *swapped && *swapped < AsNear * *rows)
+  {
+    const std::string is = std::to_string(scan.width), other = std::to_string(scan.height);
+    throw Error("The width and the height of the scan's grid are swapped: it is given as " + is + " wide and " + other +
+                " high, where neighbours in columns are " + textOfNumber("%.3g", *columns) + " mm apart, and " +
+                textOfNumber("%.3g", *swapped) + " mm as " + other + " wide and " + is +
+                " high. An array has its height first: " + is + " x " + other + " x 3.");
+  }
+}
+
 /// The scan's own grid.
 PointRaster rasterOf(const OrganizedCloud& scan)
 {
@@ -231,6 +279,7 @@ PreparedScan prepareScan(OrganizedCloud scan, Image image, const std::optional<S
   PointRaster raster;
   if (isOrganized)
   {
+    requireShape(scan);
     viewpoint = sensor ? viewpointOf(*sensor) : viewpointOfGrid(scan);
     const std::string doubt = sensor ? doubtOfViewpoint(searchViewpoint(scan.points, *sensor, HiddenByNoise)) : "";
     if (!viewpoint.T_sensor_scan.matrix().isIdentity(0.0))

@@ -31,7 +31,7 @@ struct PreparedScan
 /// turned; points that are not organized (`height` 1) come back onto the grid of their sensor, which is found again
 /// from where they lie, or else onto one that they fill, laid at the given or the likely viewpoint; and a grid of which
 /// few places are filled is made coarser. `image` is registered with the scan, or empty. `sensor`: none, when it is not
-/// known. Throws Error for a cloud without points.
+/// known. Throws Error for a cloud without points, and for a grid whose width and height are swapped.
 PreparedScan prepareScan(OrganizedCloud scan, Image image, const std::optional<Sensor>& sensor);
 
 /// Where points alone were seen from, by the pose that their file tells. None where they are on the grid of a sensor at

@@ -94,6 +94,29 @@ double offOutline(const meam::Points& edges, const Eigen::Isometry3d& T_sensor_s
 }
 }
 
+TEST(ScanPreparation, aGridWhoseSidesAreSwappedIsRefused)
+{
+  const meam::OrganizedCloud cloud = boxOnFloor();
+  const auto refusal = [](int width, int height, const meam::Points& points) {
+    return files::errorOf([&] { prepared({ width, height, points }); });
+  };
+  EXPECT_TRUE(files::contains(refusal(GridHeight, GridWidth, cloud.points),
+    "swapped: it is given as 90 wide and 120 high, where neighbours in columns are"));
+  EXPECT_EQ(refusal(GridWidth, GridHeight, cloud.points), "");
+  // Grids of which every second row is missing, or whose rows are far apart, as a laser's lines, are whole.
+  meam::Points everyOther = cloud.points, apart;
+  for (std::size_t i = 0; i < everyOther.size(); ++i)
+  {
+    everyOther[i] = i / GridWidth % 2 == 0 ? everyOther[i] : Eigen::Vector3f::Constant(NAN);
+    if (i / GridWidth % 5 == 0)
+    {
+      apart.push_back(cloud.points[i]);
+    }
+  }
+  EXPECT_EQ(refusal(GridWidth, GridHeight, everyOther), "");
+  EXPECT_EQ(refusal(GridWidth, GridHeight / 5, apart), "");
+}
+
 TEST(ScanPreparation, aUsualScanStaysAsItIs)
 {
   const meam::PreparedScan scan = prepared(boxOnFloor());
