@@ -12,6 +12,7 @@ from vtkmodules.vtkFiltersCore import vtkTriangleFilter
 from . import Error, _core, regions, scripting
 from .choices import checked_scale
 
+PLAIN_MODES = ("L", "RGB", "RGBA")  # of PIL's images: those whose bytes are grey values or colours
 HIDDEN = vtkDataSetAttributes.HIDDENPOINT
 
 
@@ -128,6 +129,16 @@ def scan_of(scan, camera=None, scale=1.0, image=None, boundary=None, image_camer
     return seen
 
 
+def unmasked(values):
+    """Points or depths without NumPy's mask: what it hides is not measured."""
+    if not isinstance(values, numpy.ma.MaskedArray):
+        return values
+    hidden = numpy.ma.getmaskarray(values)
+    if values.ndim and values.shape[-1] == 3:
+        hidden = numpy.broadcast_to(hidden.any(axis=-1, keepdims=True), hidden.shape)  # of a point all
+    return numpy.where(hidden, numpy.float32(numpy.nan), values.data) if hidden.any() else values.data
+
+
 def cloud_of(scan, camera, scale):
     """The points, with the image of an organized scan that carries one."""
     scale = checked_scale("scale", scale)
@@ -138,7 +149,7 @@ def cloud_of(scan, camera, scale):
     if isinstance(scan, vtkDataObject):
         return from_dataset(scan, scale)
     if isinstance(scan, numpy.ndarray):
-        return _core.Scan(scaled(scan, scale, "scan"))
+        return _core.Scan(scaled(unmasked(scan), scale, "scan"))
     path = name_of(scan, "the scan has to be a file, an array of points, or VTK's data object")
     if camera is not None:
         name_of(camera, "the camera of a file has to be a calibration file; a matrix is that of an array of depths")
@@ -163,9 +174,9 @@ def depths_seen(depths, camera, scale):
                     (f": give {points}" if points else "") + "; a depth image needs its camera, a calibration file or a matrix of 3 x 3")
     if depths.dtype.kind not in "fui" or not depths.size:
         raise Error(f"the depth image has to be an array of numbers, H x W, not {depths.dtype} with the shape {depths.shape}")
-    values = depths.astype(numpy.float32)
+    values = unmasked(depths).astype(numpy.float32)
     if depths.dtype in (numpy.uint8, numpy.uint16):
-        values[depths == numpy.iinfo(depths.dtype).max] = numpy.nan  # as cameras write what they did not measure
+        values[numpy.asarray(depths) == numpy.iinfo(depths.dtype).max] = numpy.nan  # as cameras write what they did not measure
     if isinstance(camera, (str, os.PathLike)):
         path = path_of(camera)
         return _core.scan_of_depths(values, _core.load_camera(path), scale * _core.load_depth_scale(path))
@@ -229,14 +240,19 @@ def set_image(scan, image, camera):
             matrix, pose = (vtk_to_numpy(field).reshape(n, n) for field, n in zip(fields, (3, 4)))
             if scan.points.shape[:2] != (height, width) or not numpy.allclose(pose, numpy.eye(4), atol=1e-9):
                 scan.image_camera = _core.Camera(width, height, matrix, pose)
-    elif isinstance(image, numpy.ndarray):
+    elif hasattr(image, "__array_interface__"):
+        if getattr(image, "mode", "RGB") not in PLAIN_MODES:
+            raise Error(f"the image is one of PIL's mode {image.mode}: give image.convert('RGB')")
+        if numpy.ma.is_masked(image):
+            raise Error("the image has masked pixels: give image.data, and what is not to be searched as region")
+        image = numpy.asarray(image)
         if image.dtype != numpy.uint8 or image.ndim not in (2, 3) or image.shape[2:] not in ((), (1,), (3,), (4,)):
             raise Error(f"the image has to be an array of bytes, H x W or H x W x 3, not {image.dtype} with the shape {image.shape}")
         scan.image = numpy.ascontiguousarray(image[..., :3] if image.ndim == 3 else image)
     else:
-        scan.image = _core.load_image(path_of(image))
+        scan.image = _core.load_image(path_of(name_of(image, "the image has to be a file, an array of bytes, or a vtkImageData")))
     if camera is not None:
-        scan.image_camera = _core.load_camera(path_of(camera))
+        scan.image_camera = _core.load_camera(path_of(name_of(camera, "the image's camera has to be a calibration file")))
 
 
 def to_vtk(scan):

@@ -161,7 +161,7 @@ def pick(found, grasps, scan=None, gripper="jaws", bin="detected", robot_frame=N
     gripper: jaws, cup, or a mesh (as train() takes it) as it stands open in the grasp's frame.
     bin: detected (by its rim, in the scan), none, or (T, length, width, height, wall): T, 4 x 4, takes the coordinates of the
     bin, whose z goes up from the middle of its floor, to the scan's; mm. robot_frame: a file of OpenCV or ROS with the
-    camera in the robot's frame. Returns Picks.
+    camera in the robot's frame, or its matrix T_robot_camera, 4 x 4, mm. Returns Picks.
     """
     sets = grasps if isinstance(grasps, (list, tuple)) else [grasps]
     for each in sets:
@@ -174,8 +174,7 @@ def pick(found, grasps, scan=None, gripper="jaws", bin="detected", robot_frame=N
         transforms = numpy.asarray(found, float)
         if transforms.ndim != 3 or transforms.shape[1:] != (4, 4):
             raise Error(f"the poses have to be an array N x 4 x 4, not one with the shape {transforms.shape}")
-        turns = transforms[:, :3, :3]
-        if not numpy.allclose(turns @ turns.transpose(0, 2, 1), numpy.eye(3), atol=1e-3):
+        if not is_rotation(transforms[:, :3, :3]):
             raise Error("the poses have to be rotations and translations")
     poses = found.core if isinstance(found, Detections) else _core.Detections(transforms)
     is_mesh = not (isinstance(gripper, str) and gripper in GRIPPERS)
@@ -189,6 +188,11 @@ def pick(found, grasps, scan=None, gripper="jaws", bin="detected", robot_frame=N
     models, parts, rows = zip(*((each.model, each.part, each.rows) for each in sets))
     plan = _core.plan(models, parts, rows, shapes, settings.apply(_core.PlanSettings(), _core), poses, seen, place)
     return Picks(plan, robot_frame is not None, found if isinstance(found, Detections) else None, sets, shapes)
+
+
+def is_rotation(turns):
+    """Whether matrices are, up to three decimals."""
+    return numpy.allclose(turns @ turns.swapaxes(-1, -2), numpy.eye(3), atol=2e-3) and (numpy.linalg.det(turns) > 0).all()
 
 
 def workplace(bin, robot_frame):
@@ -205,5 +209,18 @@ def workplace(bin, robot_frame):
             raise Error(f"the frame of the bin has to be a matrix of 4 x 4, not an array with the shape {frame.shape}")
         place.bin = _core.Bin(frame, (length, width, height), *(wall or [5.0]))
     if robot_frame is not None:
-        place.set_robot_frame(_core.load_robot_frame(inputs.path_of(robot_frame)))
+        place.set_robot_frame(frame_of(robot_frame))
     return place
+
+
+def frame_of(robot_frame):
+    """T_robot_camera of a file, or a matrix."""
+    if isinstance(robot_frame, (str, os.PathLike)):
+        return _core.load_robot_frame(inputs.path_of(robot_frame))
+    try:
+        frame = numpy.asarray(robot_frame, float)
+    except (TypeError, ValueError):
+        frame = numpy.zeros(0)
+    if frame.shape != (4, 4) or not is_rotation(frame[:3, :3]) or (frame[3] != (0, 0, 0, 1)).any():
+        raise Error(f"robot_frame has to be a file, or a matrix of 4 x 4 that is a rotation and a translation, mm, not {robot_frame!r}")
+    return frame

@@ -23,7 +23,7 @@ def of(region):
     if isinstance(region, numpy.ndarray) and (region.ndim > 1 or region.dtype == bool):
         if region.ndim > 2 or region.dtype.kind not in "biu":
             raise Error(f"a region as a mask has to be an array H x W of flags, not {region.dtype} with the shape {region.shape}")
-        return None, (region != 0).astype(numpy.uint8)
+        return None, numpy.ma.filled(region != 0, False).astype(numpy.uint8)
     if isinstance(region, (list, tuple)) and len(region) == 1:  # of a command
         region, = region
     if not isinstance(region, (list, tuple, numpy.ndarray)):

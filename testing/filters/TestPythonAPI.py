@@ -303,6 +303,12 @@ raises("bin is found in the scan", ppfmeam.pick, found, grasps)
 raises("tilt has to be a number from 0 to 180, not 500", ppfmeam.pick, found, grasps, scan, tilt=500)
 raises("opening has to be a number, 0 or more, not -1", ppfmeam.pick, found, grasps, scan, opening=-1)
 
+robot = numpy.array([[0, -1, 0, 500], [1, 0, 0, 20], [0, 0, 1, 900], [0, 0, 0, 1]])
+of_matrix = ppfmeam.pick(found, grasps, opening=60, bin="none", robot_frame=robot.tolist())
+check(numpy.allclose(of_matrix.robot_transforms, robot @ of_matrix.transforms), "a robot frame as a matrix")
+for frame in (robot[:3], 2 * robot, 3, {}, robot.T, robot * [-1, 1, 1, 1]):
+    raises("robot_frame has to be a file, or a matrix of 4 x 4", ppfmeam.pick, found, grasps, bin="none", robot_frame=frame)
+
 # Of the filters the same grasps and picks.
 definition = connect(filters.vtkMEAMGraspDefinition(), scripting.read_mesh("part.stl"), model.data, MaximumNumberOfGrasps=3, Opening=40,
                      CupDiameter=8)
@@ -345,6 +351,34 @@ raises("H x W x 3", ppfmeam.detect, model, points[..., :2])
 raises("H x W", ppfmeam.detect, model, points, grey / 255)
 raises("give a file", ppfmeam.detect, model, points, camera="camera.json")
 raises("give that, too", ppfmeam.detect, model, points, image_camera="camera.json")
+raises("width and the height of the scan's grid are swapped", ppfmeam.detect, model, points.reshape(WIDTH, HEIGHT, 3))
+
+
+class Picture:
+    """As PIL has it."""
+
+    def __init__(self, pixels, mode):
+        self.__array_interface__, self.pixels, self.mode = pixels.__array_interface__, pixels, mode
+
+
+check((inputs.scan_of(points, image=Picture(grey, "L")).image == grey).all(), "an image of PIL")
+raises("PIL's mode P: give image.convert('RGB')", ppfmeam.detect, model, points, Picture(grey, "P"))
+raises("the image has to be a file, an array of bytes, or a vtkImageData, not dict", ppfmeam.detect, model, points, {})
+raises("the image's camera has to be a calibration file, not dict", ppfmeam.detect, model, points, grey, image_camera={})
+
+# What NumPy masks was not measured.
+hidden = numpy.arange(HEIGHT * WIDTH).reshape(HEIGHT, WIDTH) % 7 == 0
+lost = numpy.repeat(hidden[..., None], 3, axis=2)
+one = lost & (numpy.arange(3) == 1)
+for mask in (lost, one):
+    check((numpy.isnan(inputs.scan_of(numpy.ma.array(points, mask=mask)).points) == lost | numpy.isnan(points)).all(), "masked points")
+check((inputs.scan_of(numpy.ma.array(points)).points[~lost] == points[~lost]).sum() == numpy.isfinite(points[~lost]).sum(), "no mask")
+depths = numpy.full((HEIGHT, WIDTH), 500, numpy.uint16)
+seen = inputs.scan_of(numpy.ma.array(depths, mask=hidden), numpy.array([[500, 0, 80], [0, 500, 60], [0, 0, 1]])).points
+check((numpy.isnan(seen[..., 2]) == hidden).all(), "masked depths")
+raises("the image has masked pixels", ppfmeam.detect, model, points, numpy.ma.array(grey, mask=hidden))
+check((inputs.scan_of(points, region=numpy.ma.array(rows, mask=hidden)).region_mask.reshape(hidden.shape) == ~hidden).all(), "a masked region")
+
 bare, alone = ppfmeam.detect(model, points), ppfmeam.detect(model, flat)
 check("no image" in bare.report and "the grid of a pinhole camera" in alone.report, f"{bare.report} {alone.report}")
 check(numpy.allclose(bare.poses, alone.poses, atol=1e-3), "points alone, on the grid that they lie on")
