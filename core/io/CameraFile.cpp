@@ -6,6 +6,7 @@
 #include "io/parsing/FileBytes.h"
 #include "io/parsing/StorageText.h"
 #include "io/parsing/TextLines.h"
+#include "scene/Units.h"
 
 #include <nlohmann/json.hpp>
 
@@ -27,6 +28,8 @@ constexpr std::size_t MostBytes = 1 << 20;
 constexpr double MostPixels = 65535.0;    // in a row or a column
 constexpr double LeastFocalLength = 0.05; // of the image's width: a pinhole camera of 170 degrees
 constexpr double LeastFocalPixels = 20.0; // lenses have as many mm; of a small image half its width
+constexpr double NearestCamera = 1.0;     // mm, beside the scan's; in metres cameras are 0.01 to 1 apart
+constexpr double LeastOffset = 0.005;     // mm, what calibration leaves of one at the same place
 
 [[noreturn]] void failCamera(const std::string& path, const std::string& what)
 {
@@ -94,10 +97,53 @@ int pixels(const std::string& path, const std::vector<double>& numbers)
   return static_cast<int>(value);
 }
 
-/// Where the camera is, from `T_camera_scene` or `R` and `T`; the identity without.
+/// Whether an entry has other numbers than those of the identity, 0 and 1.
+bool isMoved(const nlohmann::json& value)
+{
+  if (value.is_object() && value.contains("data"))
+  {
+    return isMoved(value["data"]);
+  }
+  return value.is_structured() ? std::any_of(value.begin(), value.end(), isMoved)
+                               : value.is_number() && value != 0.0 && value != 1.0;
+}
+
+/// Fails for places of a camera whose frames or units the file does not tell.
+void refuseOtherPlaces(const std::string& path, const nlohmann::json& entries)
+{
+  const std::string rotation = keyOf(entries, { "rotation", "orientation", "quaternion" });
+  for (const char* name :
+    { "extrinsic", "extrinsics", "extrinsic_matrix", "camera_extrinsics", "transform", rotation.c_str() })
+  {
+    const std::string key = *name == 0 ? std::string() : keyOf(entries, { name });
+    if (!key.empty() && isMoved(entries[key]))
+    {
+      failCamera(path, "tells the camera's place as " + key +
+                         ", but neither from which frame nor in which unit: give T_camera_scene, 4x4, mm, which takes "
+                         "the scan's points to the camera's, or leave it out of the scan's own camera");
+    }
+  }
+}
+
+/// Fails for a place whose translation is likely in metres.
+void requireMM(const std::string& path, double distance)
+{
+  if (distance > LeastOffset && distance < NearestCamera)
+  {
+    char told[32];
+    std::snprintf(told, sizeof told, "%.3g", distance);
+    failCamera(path, std::string("puts the camera ") + told +
+                       " mm from the scan's: its translation is likely in metres, give it in mm");
+  }
+}
+
+/// Where the camera is, from `T_camera_scene`, `R` and `T`, `rvec` and `tvec`, or Kalibr's `T_cn_cnm1`; the identity
+/// without.
 Eigen::Isometry3d placeOf(const std::string& path, const nlohmann::json& entries)
 {
   const std::vector<double> whole = find(path, entries, { "T_camera_scene" }, 16, 16);
+  const std::vector<double> ofKalibr = find(path, entries, { "T_cn_cnm1" }, 16, 16);
+  const std::vector<double> turn = find(path, entries, { "rvec" }, 3, 3), shift = find(path, entries, { "tvec" }, 3, 3);
   // ROS has an R of its own, which rectifies the image.
   const bool isOfROS = entries.is_object() && (entries.contains("K") || entries.contains("distortion_model"));
   const bool isRectification = isOfROS && !entries.contains("T");
@@ -113,15 +159,31 @@ Eigen::Isometry3d placeOf(const std::string& path, const nlohmann::json& entries
     T_camera_scene.linear() = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(rotation.data());
     T_camera_scene.translation() = Eigen::Map<const Eigen::Vector3d>(translation.data());
   }
-  else if (!rotation.empty() || !translation.empty())
+  else if (!turn.empty() && !shift.empty())
   {
-    failCamera(path, "has only one of R and T: the camera's place needs both, or T_camera_scene");
+    const Eigen::Vector3d axis = Eigen::Map<const Eigen::Vector3d>(turn.data());
+    T_camera_scene.linear() = Eigen::AngleAxisd(axis.norm(), axis.stableNormalized()).toRotationMatrix();
+    T_camera_scene.translation() = Eigen::Map<const Eigen::Vector3d>(shift.data());
+  }
+  else if (!rotation.empty() || !translation.empty() || !turn.empty() || !shift.empty())
+  {
+    failCamera(path, "has only one of R and T, or of rvec and tvec: the camera's place needs both, or T_camera_scene");
+  }
+  else if (!ofKalibr.empty()) // from the camera before it, in metres
+  {
+    T_camera_scene = transformOf(ofKalibr.data());
+    T_camera_scene.translation() *= Metre;
+  }
+  else
+  {
+    refuseOtherPlaces(path, entries);
   }
   const std::optional<Eigen::Isometry3d> rigid = rigidOf(T_camera_scene.matrix());
   if (!rigid)
   {
     failCamera(path, "has a place of the camera that is not a rotation and a translation");
   }
+  requireMM(path, rigid->translation().norm());
   return *rigid;
 }
 

@@ -102,6 +102,28 @@ TEST(CameraFile, everyForm)
   }
 }
 
+TEST(CameraFile, placesBesideTheSensor)
+{
+  const auto with = [](const std::string& place) { return replaced(bop, "\"fy\"", place + ", \"fy\""); };
+  const auto placeOf = [&](const std::string& place) { return readCamera(with(place)).camera.T_camera_scene; };
+  Eigen::Isometry3d turned(Eigen::Translation3d(50, 0, -100));
+  turned.linear() << 0, -1, 0, 1, 0, 0, 0, 0, 1;
+  EXPECT_TRUE(placeOf(R"("rvec": [[0], [0], [1.5707963267948966]], "tvec": [50, 0, -100])").isApprox(turned));
+  EXPECT_TRUE(
+    placeOf(R"("T_cn_cnm1": [[0, -1, 0, 0.05], [1, 0, 0, 0], [0, 0, 1, -0.1], [0, 0, 0, 1]])").isApprox(turned));
+  EXPECT_TRUE(placeOf(R"("rvec": [0, 0, 0], "tvec": [0, 0, 0])").matrix().isIdentity());
+  for (const char* same : { R"("extrinsic": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1])",
+         R"("translation": {"x": 0, "y": 0, "z": 0}, "rotation": {"x": 0, "y": 0, "z": 0, "w": 1})" })
+  {
+    EXPECT_TRUE(placeOf(same).matrix().isIdentity()) << same;
+  }
+  readCamera.fails(with(R"("rvec": [0, 0, 1])"), "rvec and tvec");
+  readCamera.fails(
+    with(R"("extrinsic": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0.05, 0, 0, 1])"), "place as extrinsic, but");
+  readCamera.fails(with(R"("translation": [50, 0, 0], "rotation": [0, 0, 0.1, 0.995])"), "place as rotation, but");
+  readCamera.fails(with(R"("R": [1, 0, 0, 0, 1, 0, 0, 0, 1], "T": [0.05, 0, 0])"), "0.05 mm from the scan's");
+}
+
 TEST(CameraFile, lensesOfROS)
 {
   const auto text = [](const std::string& model, const std::string& numbers)
