@@ -22,6 +22,7 @@ def main():
         parser.print_help(sys.stderr)
         sys.exit(2)
     command = parser.parse_args(sys.argv[1:2]).command
+    sys.stdout.reconfigure(errors="backslashreplace")  # names of files may be no UTF-8
     sys.argv = [f"ppfmeam {command}", *sys.argv[2:]]
 
     from . import scripting  # loads VTK, which --help does without

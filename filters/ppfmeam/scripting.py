@@ -102,7 +102,8 @@ def written(path, newline=None, mode="w"):
     part = f"{path}.{os.getpid()}.part" if is_file else path
     try:
         with writing(path):
-            with open(part, mode, encoding=None if "b" in mode else "utf-8", newline=newline) as file:
+            text = {} if "b" in mode else {"encoding": "utf-8", "errors": "backslashreplace"}  # names of files may be no UTF-8
+            with open(part, mode, newline=newline, **text) as file:
                 yield file
             if is_file:
                 os.replace(part, path)
@@ -341,7 +342,7 @@ def write_json(path, value):
 def read_with(reader, path):
     """What a reader finds in a file."""
     require_file(path)
-    reader.SetFileName(path)
+    reader.SetFileName(os.fsencode(path))
     try:
         return update(reader).GetOutputDataObject(0)
     except Failure as failure:
@@ -585,7 +586,7 @@ def write_poses(poses, path, form, **numbers):
     """Writes poses in a form of vtkMEAMPoseWriter: "BOPCSV", "JSON" or "Matrices"; numbers: SceneId=3."""
     writer = filters.vtkMEAMPoseWriter()
     writer.SetInputDataObject(poses)
-    writer.SetFileName(path)
+    writer.SetFileName(os.fsencode(path))
     set_choice(writer, "Format", form)
     for name, value in numbers.items():
         getattr(writer, "Set" + name)(value)

@@ -171,6 +171,18 @@ check(list(found) == ["bare.pcd", "none.pcd", "folder/a.pcd"], f"the list's scan
 check(found["none.pcd"]["failure"].startswith("cannot read none.pcd"), f"{found}")
 check(found["bare.pcd"]["R"] and found["folder/a.pcd"]["R"], f"{found}")
 
+write("marked.txt", "\ufeffbare.pcd\n")
+check("1 scans, 0 failed" in batch("marked.txt", "--model", "plate.meam", "--out", "marked.csv"), "a list with a byte order mark")
+
+# A name that is no UTF-8 costs nothing; a .csv, which may be no scan, is named.
+os.makedirs("odd")
+for name in (b"odd/b\xe4d.pcd", b"odd/c.csv", b"odd/d.txt"):
+    shutil.copy("folder/a.pcd", name)
+told = batch("odd", "--model", "plate.meam", "--probability", "0.3", "--out", "odd/odd.csv", "--json", "odd.json", "--report", "odd_pages")
+check("odd: c.csv and 1 more are not taken for scans; a list" in told and "1 scans, 0 failed" in told, told)
+check({(row["scan"], row["failure"]) for row in rows_of("odd/odd.csv")} == {("b\\udce4d.pcd", "")}, f"{rows_of('odd/odd.csv')}")
+check(len(os.listdir("odd_pages")) == 2 and scripting.read_json("odd.json")["scans"][0]["poses"], "its page")
+
 # Two parts: no two poses explain the same surface.
 write("one.txt", "bare.pcd\n")
 batch("one.txt", "--model", "plate.meam", "--model", "plate.meam", "--out", "two.csv")

@@ -107,6 +107,16 @@ for name in "abc":
     check([[float(word) for word in row["t"].split()] for row in rows_of(f"cell/{name}.poses.csv")] == expected, "CSV")
 end(process, "3 scans, 0 failed")
 
+# A scan of the same name and another kind has a result of its own.
+process = start()
+line(process, "watching cell")
+before = read("cell/a.poses.json")
+write("cell/a.part", "1 2")
+os.rename("cell/a.part", "cell/a.ply")
+line(process, "a.ply: ")
+end(process, "1 scans, 1 failed")
+check(read("cell/a.ply.poses.failed") and read("cell/a.poses.json") == before, f"{sorted(os.listdir('cell'))}")
+
 # A scan that crashes the process which searches it has the reason beside it, and the next one its poses; so has one that
 # crashes it once, or during which it is killed.
 shutil.rmtree("cell")

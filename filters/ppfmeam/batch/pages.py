@@ -50,7 +50,7 @@ def write_index(folder, lines):
     """Of the journal's lines, in the order of the scans."""
     def cells(line):
         name, path = line["scan"], path_of(folder, line["scan"])
-        link = f'<a href="{urllib.parse.quote(os.path.basename(path))}">{html.escape(name)}</a>' if os.path.exists(path) else html.escape(name)
+        link = f'<a href="{urllib.parse.quote(os.fsencode(os.path.basename(path)))}">{html.escape(name)}</a>' if os.path.exists(path) else html.escape(name)
         places = [float(row[3]) for row in line["rows"]]
         likely = sum(place >= LIKELY for place in places)
         said = (line["failure"] or line["warning"], line["advice"] or ("" if likely or line["failure"] else UNKNOWN))

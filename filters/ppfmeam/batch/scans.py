@@ -3,8 +3,10 @@
 import os
 
 from .. import dataset, scripting
+from . import table
 
-CLOUDS = tuple(kind for kind in scripting.CLOUDS if kind not in (".csv", ".txt"))  # these may be anything
+UNSURE = (".csv", ".txt")  # may be anything
+CLOUDS = tuple(kind for kind in scripting.CLOUDS if kind not in UNSURE)
 
 
 class Scan:
@@ -42,12 +44,23 @@ class Files:
 class Folder(Files):
     """The scans of a folder, by name."""
 
+    def is_result(self, name):
+        """Whether it is a table that this command writes."""
+        out = os.path.abspath(self.options.out)
+        return os.path.abspath(os.path.join(self.options.scans, name)) in (out, table.path_of_scans(out))
+
     def list(self):
         folder = self.options.scans
-        rows = [(name, os.path.join(folder, name), "") for name in sorted(os.listdir(folder)) if self.is_scan(name)]
+        names = sorted(os.listdir(folder))
+        rows = [(name, os.path.join(folder, name), "") for name in names if self.is_scan(name)]
+        left_out = [name for name in names if name.lower().endswith(UNSURE) and not self.is_result(name)]
         if not rows:
             raise scripting.Failure(f"{folder} has no scans: {', '.join(CLOUDS)} or, with --camera and --no-image, depth images, or "
-                                    f"{self.options.split}/ of a BOP dataset")
+                                    f"{self.options.split}/ of a BOP dataset" +
+                                    (f"; {' and '.join(UNSURE)} are taken from a list of scans" if left_out else ""))
+        if left_out:
+            more = f" and {len(left_out) - 1} more are" if len(left_out) > 1 else " is"
+            print(f"{folder}: {left_out[0]}{more} not taken for scans; a list of scans may name {' and '.join(UNSURE)}", flush=True)
         return rows
 
 
@@ -58,7 +71,7 @@ class ListFile(Files):
         path = self.options.scans
         scripting.require_file(path)
         try:
-            with open(path, encoding="utf-8") as file:
+            with open(path, encoding="utf-8-sig") as file:
                 lines = [line for line in file.read().splitlines() if line.strip() and not line.startswith("#")]
         except UnicodeDecodeError:
             raise scripting.Failure(f"{path} is not a list of scans, a text file with a path in each line") from None

@@ -86,8 +86,12 @@ class Watch:
         self.latencies, self.failed = [], 0
 
     def result(self, path, extension=None):
-        """scan.pcd has scan.poses.json beside it, or scan.poses.failed with the reason."""
-        return f"{os.path.splitext(path)[0]}.poses.{extension or self.options.form}"
+        """scan.pcd has scan.poses.json beside it, or scan.poses.failed with the reason; where there is a scan.ply, too, it has
+        scan.pcd.poses.json."""
+        stem, kind = os.path.splitext(path)
+        twins = any(other != kind.lower() and self.source.is_scan(stem + other) and os.path.exists(stem + other)
+                    for other in (*scripting.CLOUDS, *scripting.DEPTH_IMAGES))
+        return f"{path if twins else stem}.poses.{extension or self.options.form}"
 
     def is_done(self, path):
         """Whether there is a result that is not older than the scan."""
