@@ -34,6 +34,10 @@ std::optional<Sensor> givenSensor(const Scan& scan)
   std::optional<Sensor> sensor = scan.sensor;
   if (sensor)
   {
+    if (!sensor->position.allFinite() || !sensor->direction.allFinite())
+    {
+      throw Error("The scan's sensor (Scan::sensor) has a position or a direction that is not a finite number.");
+    }
     sensor->direction = lookingDirection(*sensor, scan.points);
     if (sensor->direction.isZero(0.0))
     {

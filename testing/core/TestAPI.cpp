@@ -204,7 +204,15 @@ TEST(API, WhatIsWrongWithAScan)
       { [](auto& s) {
          s.sensor = meam::Sensor{ false, { 0, 0, 0 }, { 0, 0, 0 } };
        },
-        "direction is zero" } },
+        "direction is zero" },
+      { [](auto& s) {
+         s.sensor = meam::Sensor{ true, { 0, NAN, 0 }, { 0, 0, 1 } };
+       },
+        "Scan::sensor" },
+      { [](auto& s) {
+         s.sensor = meam::Sensor{ false, { 0, 0, 0 }, { INFINITY, 0, 0 } };
+       },
+        "Scan::sensor" } },
     scanOfThree());
   steps::expectRefused<meam::Scan>(take,
     { { [](auto& s) {
