@@ -436,7 +436,8 @@ TrainedModel hashModels(const std::vector<AppearanceModel>& edgeModels, const Pa
   }
   if (!hasEdges(settings.features) && surface.empty())
   {
-    throw Error("Pairs of surface points need samples of the part's surface: give them, or set Features to Edges.");
+    throw Error(
+      "Pairs of surface points need samples of the part's surface: give them, or train edges alone (Features: Edges).");
   }
   TrainedModel model;
   model.settings = settings;

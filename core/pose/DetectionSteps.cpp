@@ -45,9 +45,13 @@ SceneEdges findEdges(
   {
     settings.camera = imageCamera;
   }
-  else if (chosen.imageEdges && !settings.depthEdges && !settings.creases)
+  else if (!settings.depthEdges && !settings.creases)
   {
-    throw Error("The scan has no image: give one, registered or with its camera, or look for DepthEdges and Creases.");
+    const bool byPreset = chosen.depthEdges || chosen.creases;
+    throw Error((chosen.imageEdges ? "The scan has no image: give one, registered or with its camera, or "
+                                   : "No edges are looked for: take those of the image, or ") +
+                std::string(byPreset ? "the preset that looks for edges of the depth, too (Preset: Recommended)."
+                                     : "switch on DepthEdges or Creases."));
   }
   else if (chosen.imageEdges)
   {

@@ -253,6 +253,9 @@ os.remove("metres.txt")
 larger = script("detect.py", "--cad", "part.stl", "--cad-scale", "12", "--scene", "scan.pcd")
 check(larger.returncode == 0 and larger.stderr.startswith("warning: ") and "likely factor is 10" in larger.stderr, larger.stderr)
 check("no image" in script("detect.py", "--model", "model.vtpc", "--scene", "plain.pcd").stdout, "a scan without an image")
+for method in (("--method", "ppf"), ("--preset", "paper")):
+    for no_image in ((), ("--no-image",)):
+        refuses("of the depth, too (--preset recommended)", "detect.py", "--model", "model.vtpc", "--scene", "plain.pcd", *method, *no_image)
 refuses("30 x 20", "detect.py", "--model", "model.vtpc", "--scene", "plain.pcd", "--image", "small.png", *out)
 refuses("not a PNG", "detect.py", "--model", "model.vtpc", "--scene", "plain.pcd", "--image", "junk.png", *out)
 refuses("only 3 points", "detect.py", "--model", "model.vtpc", "--scene", "points.ply", *out)

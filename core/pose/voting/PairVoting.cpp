@@ -184,17 +184,16 @@ std::vector<VotingRound> votingRounds(
   if (!withEdges && !haveSurface)
   {
     const bool holdsEdges = hasEdges(model.settings.features);
-    throw Error(
-      "The model holds pairs of " + std::string(holdsEdges ? "edge" : "surface") +
-      " points alone, and poses are looked for by " + (holdsEdges ? "surface" : "edge") +
-      " points: train it with Features set to Both, or set Features to Both here (the preset Paper takes edge "
-      "points alone).");
+    throw Error("The model holds pairs of " + std::string(holdsEdges ? "edge" : "surface") +
+                " points alone, and poses are looked for by " + (holdsEdges ? "surface" : "edge") +
+                " points: train it with both, or look for them by both (Features: Both; the preset Paper takes edge "
+                "points alone).");
   }
   const bool withSurface = haveSurface && scene.hasSurface();
   if (!withEdges && !withSurface)
   {
     throw Error("Poses are looked for by surface points alone, and the scene has no surface: give the points that the "
-                "sensor measured, or a model of edge points, too, with Features set to Both.");
+                "sensor measured, or a model of edge points, too (Features: Both).");
   }
   std::vector<VotingRound> rounds;
   if (withEdges)
