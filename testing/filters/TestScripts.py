@@ -111,6 +111,11 @@ works("detect.py", "--model", "model.vtpc", "--scene", "scan.pcd", "--poses", "0
 check(min(pose["probability"] for pose in json.loads(read("all.json"))["poses"]) < 0.5, "0 poses are all, unlikely ones, too")
 works("detect.py", "--model", "model.vtpc", "--scene", "plain.pcd", "--image", "image.png", "--poses", "2", "--matrices", "b.txt")
 check(read("b.txt") == read("a.txt"), "with the image of the file the poses differ")
+check("mesh: open" not in text, text)
+write("tray.obj", "".join(f"v {x} {y} {z}\n" for z in (0, 20) for y in (0, 50) for x in (0, 80)) +
+      "f 1 3 4 2\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n")  # without its upper side
+text = works("train.py", "--cad", "tray.obj", "--out", "tray.vtpc", "--json", "tray.json")
+check("\nmesh: open, 4 of its 17 edges have a face on one side alone" in text and json.loads(read("tray.json"))["border_edges"] == 4, text)
 for _ in range(2):
     works("train.py", "--cad", "box.stl", "--out", "over.vtpc")  # again, over the old one
 # What is known of a part's symmetries, also with the preset that does without; a box has three half turns.

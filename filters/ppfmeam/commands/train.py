@@ -24,8 +24,8 @@ def main():
 
     scripting.require_model_name(options.out)
     scripting.require_folder_of(options.out, options.models_info, options.json)
-    training = scripting.Training(
-        scripting.read_mesh(options.cad, options.cad_offset, options.cad_scale, options.solid), options.preset, options.features)
+    mesh = scripting.read_mesh(options.cad, options.cad_offset, options.cad_scale, options.solid)
+    training = scripting.Training(mesh, options.preset, options.features)
     start = time.time()
     model = training.model()
     seconds = time.time() - start
@@ -34,9 +34,14 @@ def main():
     told = {"model": options.out, "edge_points": scripting.field(model, "NumberOfEdgePoints"),
             "pairs": scripting.field(model, "NumberOfPairs") + scripting.field(model, "NumberOfSurfacePairs"),
             "table_bytes": scripting.field(model, "TableBytes"), "diameter": scripting.field(model, "Diameter"), "seconds": seconds,
-            "symmetries": scripting.symmetry_words(samples), "conclusion": scripting.symmetry_conclusion(samples)}
+            "symmetries": scripting.symmetry_words(samples), "conclusion": scripting.symmetry_conclusion(samples),
+            "border_edges": int(scripting.field(mesh, "BorderEdges"))}
     print("{model}: {edge_points:.0f} edge points, {pairs:.0f} pairs in {megabytes:.1f} MB, part of {diameter:.1f} mm, trained in "
           "{seconds:.1f} s".format(megabytes=told["table_bytes"] / 1e6, **told))
+    if told["border_edges"]:
+        edges = (3 * scripting.field(mesh, "Triangles") + told["border_edges"]) / 2
+        print(f"mesh: open, {told['border_edges']} of its {edges:.0f} edges have a face on one side alone, as a sheet's border; "
+              "of a solid body faces are missing there")
     for line in told["symmetries"]:
         print(f"symmetry: {line}")
     print(told["conclusion"])
