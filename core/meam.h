@@ -152,9 +152,10 @@ MEAM_EXPORT CalibratedModel calibrate(const Model& model, const std::vector<Judg
 /// Reads what Model::save() wrote.
 MEAM_EXPORT Model loadModel(const std::string& path);
 
-/// Reads a scan: a .pcd, a .ply or a text with a point in each line (.xyz, .csv, .txt, .asc, .pts); one that is not
-/// organized comes back onto its camera's pixels when that is given. Colours or grey values become the image, and a
-/// VIEWPOINT that points alone were seen from the sensor. `scale` brings lengths to mm: 1000 for metres.
+/// Reads a scan: a .pcd, a .ply, the vertices of an .obj, or a text with a point in each line (.xyz, .csv, .txt, .asc,
+/// .pts); one that is not organized comes back onto its camera's pixels when that is given. Colours or grey values
+/// become the image, and a VIEWPOINT that points alone were seen from the sensor. `scale` brings lengths to mm: 1000
+/// for metres.
 MEAM_EXPORT Scan loadScan(const std::string& path, const std::string& cameraFile = {}, double scale = 1.0);
 
 /// A scan of what a depth camera gave: distances along its z axis, one for each pixel, row by row from the top; NaN, 0

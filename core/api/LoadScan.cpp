@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/CameraFile.h"
+#include "io/MeshFile.h"
 #include "io/cloud/PCDFile.h"
 #include "io/cloud/XYZFile.h"
 #include "io/PLYFile.h"
@@ -42,6 +43,14 @@ MeasuredCloud readCloud(const std::string& path)
   {
     return readPLYCloud(path);
   }
+  if (extension == ".obj")
+  {
+    MeasuredCloud measured;
+    measured.cloud.points = readOBJPoints(path);
+    measured.cloud.width = static_cast<int>(measured.cloud.points.size());
+    measured.cloud.height = 1;
+    return measured;
+  }
   for (const char* text : { ".xyz", ".csv", ".txt", ".asc", ".pts" })
   {
     if (extension == text)
@@ -49,9 +58,10 @@ MeasuredCloud readCloud(const std::string& path)
       return readXYZ(path);
     }
   }
-  throw Error("The scan '" + path +
-              "' has an extension that is not known: give a .pcd, a .ply or a text of points (.xyz, .csv, .txt, .asc, "
-              ".pts); depth images are read by loadDepthImage().");
+  throw Error(
+    "The scan '" + path +
+    "' has an extension that is not known: give a .pcd, a .ply, an .obj or a text of points (.xyz, .csv, .txt, "
+    ".asc, .pts); depth images are read by loadDepthImage().");
 }
 
 void scaleCloud(MeasuredCloud& measured, double scale, const std::string& path)

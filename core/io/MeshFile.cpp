@@ -254,7 +254,8 @@ void joinContinuedLines(std::string& text)
   }
 }
 
-TriangleMesh readOBJ(const std::string& path, const Progress& progress)
+/// With its faces, or, of a scan, its vertices with those faces that there are.
+TriangleMesh readOBJ(const std::string& path, bool isScan, const Progress& progress)
 {
   std::string bytes = readText(path);
   joinContinuedLines(bytes);
@@ -294,7 +295,7 @@ TriangleMesh readOBJ(const std::string& path, const Progress& progress)
     addPolygon({ from + 1, to }, mesh);
     from = to;
   }
-  if (mesh.triangles.empty() || hasPatches)
+  if ((isScan ? mesh.vertices.empty() : mesh.triangles.empty()) || hasPatches)
   {
     failMesh(path, hasPatches              ? "holds free-form surfaces, which are not read: export it as a mesh"
                    : mesh.vertices.empty() ? "has no lines of vertices (v x y z) and faces: it is empty, or no OBJ file"
@@ -312,7 +313,7 @@ TriangleMesh readKind(const std::string& path, const Progress& progress)
   }
   if (extension == ".obj")
   {
-    return readOBJ(path, progress);
+    return readOBJ(path, false, progress);
   }
   if (extension == ".ply")
   {
@@ -333,6 +334,8 @@ bool isBRepFile(const std::string& path)
   const std::string extension = extensionOf(path);
   return extension == ".step" || extension == ".stp" || extension == ".iges" || extension == ".igs";
 }
+
+Points readOBJPoints(const std::string& path) { return readOBJ(path, true, {}).vertices; }
 
 TriangleMesh readMesh(const std::string& path, const Progress& progress)
 {

@@ -18,4 +18,7 @@ bool isBRepFile(const std::string& path);
 /// exactly the same place, in the order in which these come first. Throws Error, naming the file and what is wrong with
 /// it, also when it has no faces.
 TriangleMesh readMesh(const std::string& path, const Progress& progress = {});
+
+/// Reads the vertices of an OBJ file as a scan, which needs no faces. Throws Error as readMesh().
+Points readOBJPoints(const std::string& path);
 }

@@ -161,7 +161,7 @@ def cloud_of(scan, camera, scale):
     path_of(path)
     if extension in scripting.DEPTH_IMAGES:
         return _core.load_depth_image(path, path_of(camera), scale)
-    if extension in scripting.CLOUDS:
+    if extension in (*scripting.CLOUDS, ".obj"):  # which may have points alone
         return _core.load_scan(path, "" if camera is None else path_of(camera), scale)
     return _core.Scan(scaled(_core.load_cad(mesh_file(path, scripting.SCANS)).vertices, scale, "scan"))
 

@@ -429,13 +429,22 @@ def read_scan(path, scale=1.0, camera=None):
         raise Failure(f"{path} is an image: give a depth image with --depth and its --camera, and the scan's image with --image")
     if extension not in CLOUDS:
         require_kind(path, extension in SCANS, SCANS)
-        return read(path, scale)
+        return read(path, scale) if extension != ".obj" else points_of_obj(path, scale)
     if not 0 < scale < float("inf"):
         raise Failure(f"{path}: the scale has to be a positive number, not {scale}")
     reader = cloud_reader(extension)
     reader.SetScale(scale)
     reader.SetCameraFile(camera)
     return read_with(reader, path)
+
+
+def points_of_obj(path, scale):
+    """The vertices of an OBJ file, with faces or points alone, in mm."""
+    from . import _core  # only now: most commands do without
+    require_file(path)
+    data = vtkPolyData()
+    data.SetPoints(vtk_points(_core.load_scan(path, "", scale).points))
+    return data
 
 
 def read_depth(path, camera, scale=None):

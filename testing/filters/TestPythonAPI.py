@@ -18,7 +18,7 @@ from vtkmodules.vtkIOGeometry import vtkSTLWriter
 
 import ppfmeam
 from ppfmeam import _core, filters, inputs, scripting
-from meamtest import Folder, box, check, connect, fails, field, partitions, plate, read, run, text, tuples, written
+from meamtest import Folder, box, check, connect, fails, field, partitions, plate, read, run, text, tuples, write, written
 
 WIDTH, HEIGHT, COPIES = 480, 360, 3
 FIELDS = ("Diameter", "Feature", "DistanceStep", "AngleStep", "ViewMerging", "VoxelSize", "LeafSize",
@@ -382,6 +382,10 @@ check((inputs.scan_of(points, region=numpy.ma.array(rows, mask=hidden)).region_m
 bare, alone = ppfmeam.detect(model, points), ppfmeam.detect(model, flat)
 check("no image" in bare.report and "the grid of a pinhole camera" in alone.report, f"{bare.report} {alone.report}")
 check(numpy.allclose(bare.poses, alone.poses, atol=1e-3), "points alone, on the grid that they lie on")
+write("points.obj", "# a scan\n" + "".join(f"v {x:.6f} {y:.6f} {z:.6f}\n" for x, y, z in flat[numpy.isfinite(flat).all(axis=1)]))
+check(numpy.allclose(ppfmeam.detect(model, "points.obj").poses, alone.poses, atol=1e-3), "the vertices of an OBJ")
+check(scripting.read_scan("points.obj", 2.0).GetNumberOfPoints() == numpy.isfinite(flat).all(axis=1).sum(), "and for the commands")
+raises("has no faces", ppfmeam.train, "points.obj")
 raises(str(WIDTH), ppfmeam.detect, model, points, grey[:-1])
 raises("ends in .meam", model.save, "model.stl")
 raises("no such folder", model.save, "no/model.meam")

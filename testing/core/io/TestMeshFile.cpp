@@ -309,6 +309,16 @@ TEST(MeshFile, TextInUTF16)
   }
 }
 
+TEST(MeshFile, VerticesOfOBJAreAScan)
+{
+  const files::Folder folder;
+  const std::string path = folder.write("points.obj", "# a scan\nv 1 2 3 0.5 0.5 0.5\nv 4 5 6\n");
+  EXPECT_EQ(meam::readOBJPoints(path), (meam::Points{ { 1, 2, 3 }, { 4, 5, 6 } }));
+  EXPECT_TRUE(files::contains(files::errorOf([&] { meam::readMesh(path); }), "has no faces"));
+  const std::string empty = folder.write("empty.obj", "# nothing\n");
+  EXPECT_TRUE(files::contains(files::errorOf([&] { meam::readOBJPoints(empty); }), "no OBJ file"));
+}
+
 TEST(MeshFile, CommentsOfOBJAreNotContinued)
 {
   const std::string points = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\n", mark = "\xef\xbb\xbf";
