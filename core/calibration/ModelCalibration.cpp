@@ -10,6 +10,7 @@
 #include <cmath>
 #include <set>
 #include <string>
+#include <utility>
 
 namespace meam
 {
@@ -37,10 +38,10 @@ struct Claim
   bool holds;
 };
 
-/// Of what a calibrated model said.
-Claim claimOf(double said, const LogisticRegression& before, bool holds)
+/// Log odds, of what a calibrated model said.
+double countedOf(double said, const LogisticRegression& before)
 {
-  return { std::clamp(before.countedOf(logOddsOf(said)), -Extreme, Extreme), holds };
+  return std::clamp(before.countedOf(logOddsOf(said)), -Extreme, Extreme);
 }
 
 double probabilityBy(const LogisticRegression& line, double said) { return probabilityOf(line.logOdds(said)); }
@@ -134,7 +135,7 @@ std::vector<int> foldsOf(const std::vector<JudgedPose>& poses, const std::set<in
     { return static_cast<int>(std::distance(scenes.begin(), scenes.find(pose.scene))) % Folds; });
 }
 
-/// Lines for each fold, fitted on all others; `before` for all where that is better for the scans left out.
+/// Lines for each fold, fitted on all others; none where `before` is better for the scans left out.
 std::vector<LogisticRegression> heldOut(
   const std::vector<Claim>& claims, const std::vector<int>& folds, const LogisticRegression& before)
 {
@@ -160,7 +161,7 @@ std::vector<LogisticRegression> heldOut(
       }
     }
   }
-  return gain > 0.0 ? lines : std::vector<LogisticRegression>(Folds, before);
+  return gain > 0.0 ? lines : std::vector<LogisticRegression>();
 }
 
 /// Of a copy that is turned right, one that is turned wrongly, and none.
@@ -177,6 +178,21 @@ struct Told
   double after;
   bool holds;
 };
+
+/// Claims that are right no more often where they are surer: likely the verdicts are wrong.
+std::string doubtOf(const ModelCalibration& calibration)
+{
+  std::string surer;
+  for (const auto& [line, claim] :
+    { std::pair(calibration.place, "a copy is there"), std::pair(calibration.rotation, "the rotation is right") })
+  {
+    surer += line.slope > LeastSlope ? std::string() : (surer.empty() ? "" : ", or that ") + std::string(claim);
+  }
+  return surer.empty() ? surer
+                       : "Where the model is surer that " + surer +
+                           ", it is not right more often: see that the verdicts are of these poses, and right and "
+                           "wrong not exchanged.";
+}
 
 void addClasses(const std::vector<Told>& told, bool withRotation, std::vector<ClaimClass>& classes)
 {
@@ -224,18 +240,17 @@ CalibrationReport fitModelCalibration(const std::vector<JudgedPose>& poses, cons
   std::vector<int> foldsOfRotations;
   for (std::size_t k = 0; k < poses.size(); ++k)
   {
-    places.push_back(claimOf(poses[k].placeProbability, before.place, poses[k].isThere));
+    places.push_back({ countedOf(poses[k].placeProbability, before.place), poses[k].isThere });
     if (poses[k].isThere && hasRotations(poses[k]))
     {
-      rotations.push_back(claimOf(poses[k].certainty, before.rotation, poses[k].isTurnedRight));
+      rotations.push_back({ countedOf(poses[k].certainty, before.rotation), poses[k].isTurnedRight });
       foldsOfRotations.push_back(folds[k]);
     }
   }
   const std::vector<LogisticRegression> placeLines = heldOut(places, folds, before.place);
   const std::vector<LogisticRegression> rotationLines =
-    heldOut(rotations, foldsOfRotations, before.rotation); // of few or none `before`
-  const bool keepsPlaces = placeLines.front() == before.place,
-             keepsRotations = rotationLines.front() == before.rotation;
+    heldOut(rotations, foldsOfRotations, before.rotation); // of few or none `before` is kept
+  const bool keepsPlaces = placeLines.empty(), keepsRotations = rotationLines.empty();
 
   CalibrationReport report;
   report.calibration = before;
@@ -255,8 +270,7 @@ CalibrationReport fitModelCalibration(const std::vector<JudgedPose>& poses, cons
     }
     if (!keepsRotations && hasRotations(pose))
     {
-      after.certainty =
-        probabilityBy(rotationLines[folds[k]], claimOf(pose.certainty, before.rotation, pose.isTurnedRight).logOdds);
+      after.certainty = probabilityBy(rotationLines[folds[k]], countedOf(pose.certainty, before.rotation));
     }
     ofPlaces.push_back({ pose.placeProbability, after.placeProbability, pose.isThere });
     ofPoses.push_back({ pose.placeProbability * pose.certainty, after.placeProbability * after.certainty,
@@ -266,6 +280,7 @@ CalibrationReport fitModelCalibration(const std::vector<JudgedPose>& poses, cons
   }
   addClasses(ofPlaces, false, report.classes);
   addClasses(ofPoses, true, report.classes);
+  report.warning = doubtOf(report.calibration);
   return report;
 }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <string>
 #include <vector>
 
 namespace meam
@@ -15,10 +16,6 @@ struct LogisticRegression
   /// What was counted, of a logarithm of the odds.
   double countedOf(double logOdds) const { return (logOdds - this->constant) / this->slope; }
   bool isIdentity() const { return this->constant == 0.0 && this->slope == 1.0; }
-  bool operator==(const LogisticRegression& other) const
-  {
-    return this->constant == other.constant && this->slope == other.slope;
-  }
 };
 
 /// [0, 1], from the logarithm of odds.
@@ -65,6 +62,7 @@ struct CalibrationReport
   double lossBefore = 0.0; ///< mean logarithmic loss of right, turned wrongly, and wrong, nats a pose,
   double lossAfter = 0.0;  ///< and of the calibrated ones
   std::vector<ClaimClass> classes;
+  std::string warning; ///< of verdicts that are likely exchanged; mostly empty
 };
 
 /// Fits a calibration to judged poses of a model that has `before` already: what was said is said by that, and is taken

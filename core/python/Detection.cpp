@@ -229,7 +229,8 @@ void bindCalibration(py::module_& module)
   py::class_<CalibrationReport>(module, "CalibrationReport")
     .def_readonly("loss_before", &CalibrationReport::lossBefore)
     .def_readonly("loss_after", &CalibrationReport::lossAfter)
-    .def_readonly("classes", &CalibrationReport::classes);
+    .def_readonly("classes", &CalibrationReport::classes)
+    .def_readonly("warning", &CalibrationReport::warning);
   module.def("calibrate",
     [](const Model& model, const std::vector<JudgedPose>& poses)
     {

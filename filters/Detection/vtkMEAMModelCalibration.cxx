@@ -65,6 +65,7 @@ void fromReport(const meam::CalibrationReport& report, vtkTable* output)
   output->AddColumn(columnOf<vtkDoubleArray>("After", report.classes, &ClaimClass::after));
   setFieldValue(output, "LossBefore", report.lossBefore);
   setFieldValue(output, "LossAfter", report.lossAfter);
+  setFieldText(output, "Warning", report.warning);
   setCalibration(output, report.calibration);
 }
 }

@@ -3,6 +3,7 @@
 
 #include "base/Bounds.h"
 #include "base/Error.h"
+#include "base/Frames.h"
 #include "vtkMEAMArrays.h"
 
 #include "vtkDoubleArray.h"
@@ -23,8 +24,6 @@ namespace vtkMEAMConversion
 {
 namespace
 {
-constexpr double ExactRotation = 1e-9; // of a file with few decimals it is not
-
 using meam::Error;
 using meam::Pose;
 }
@@ -56,20 +55,15 @@ meam::Poses toPoses(vtkPolyData* input)
   {
     Eigen::Matrix<double, 4, 4, Eigen::RowMajor> matrix;
     transforms->GetTuple(i, matrix.data());
-    const Eigen::Matrix3d rotation = matrix.topLeftCorner<3, 3>();
-    if (!matrix.allFinite() || !matrix.row(3).isApprox(Eigen::RowVector4d(0, 0, 0, 1), 1e-6) ||
-        !(rotation.transpose() * rotation).isIdentity(1e-3) || rotation.determinant() < 0.0)
+    const std::optional<Eigen::Isometry3d> rigid = meam::rigidOf(matrix);
+    if (!rigid)
     {
       throw Error("Pose " + std::to_string(i + 1) +
                   " is not a rotation and a translation: 'Transform' has to be 4 x 4, "
                   "row by row, with the last row 0 0 0 1.");
     }
     meam::Pose pose;
-    pose.T_scene_model.matrix() = matrix;
-    if (!(rotation.transpose() * rotation).isIdentity(ExactRotation))
-    {
-      pose.T_scene_model.linear() = Eigen::Quaterniond(rotation).normalized().toRotationMatrix();
-    }
+    pose.T_scene_model = *rigid;
     if (residuals && iterations && covariances && constrained && axes)
     {
       pose.fit.residual = residuals->GetComponent(i, 0);

@@ -195,9 +195,10 @@ class Detections(Rows):
 def calibrate(model, judged):
     """Fits what a model says of its poses to scans in which it is known which are right; returns the calibrated Model, and a
     report with `loss_before`, `loss_after` (mean logarithmic loss of a pose, nats; `after` on scans left out of the fit) and
-    `classes` (of each `least` and `most` of what was said, `poses`, share that is `right`, mean said `before` and `after`).
+    `classes` (of each `least` and `most` of what was said, `poses`, share that is `right`, mean said `before` and `after`), and
+    `warning`, of verdicts that are likely exchanged. It takes the place of the model's calibration before.
 
-    judged: of each scan, 5 or better a few dozen, a pair: its Detections, and for each of them True (right), "turned" (a copy
+    judged: of each scan, 5 or better a few dozen, a pair: its Detections by this model, and for each of them True (right), "turned" (a copy
     is there, and the pose is turned wrongly), False (wrong, or a second pose of a copy), or None (not known)."""
     poses = []
     for scene, (found, verdicts) in enumerate(judged):

@@ -23,7 +23,7 @@ class Plan:
         pages.require(options.report)
         self.scans = scans.source(options).list()
         wanted = parts.parts_of(options)
-        journal.open({"version": VERSION, "parts": [part.digest() for part in wanted],
+        journal.open({"version": VERSION, "parts": [part.digest() for part in wanted], "columns": list(table.POSES),
                       "scans": os.path.abspath(options.scans),
                       **{name: value for name, value in vars(options).items() if name not in ("scans", *ELSEWHERE)}})
         done, started = journal.lines()

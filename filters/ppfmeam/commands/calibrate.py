@@ -18,7 +18,7 @@ import numpy
 
 from .. import dataset, evaluation, filters, scripting
 
-LEAST_SLOPE = 0.1  # of the fit: poses that are said to be surer are right no more often
+MOST = 1e6  # constants and slopes of calibrations are a few
 VERDICTS = {"1": (1, 0), "turned": (1, 2), "0": (0, 3)}  # CopyIsThere and PoseOutcome
 WRITTEN = {"1.0": "1", "0.0": "0", "true": "1", "false": "0"}  # by spreadsheets, and by pandas where some are empty
 CLASSES = ("Claim", "Least", "Most", "Poses", "Right", "Before", "After")
@@ -59,6 +59,15 @@ def numbers_of(words, least, most):
     return values
 
 
+def written_by(cell):
+    """Constant and slope of places and of rotations; none of an empty cell, as of a table of an older version."""
+    words = (cell or "").split()
+    constant, slope, turned_constant, turned_slope = numbers_of(words, -MOST, MOST) if words else (0, 1, 0, 1)
+    if min(slope, turned_slope) <= 0:
+        raise ValueError
+    return (constant, slope, turned_constant, turned_slope) if words else None
+
+
 def judged_lines(path, number):
     """Of the table the lines with a verdict on poses of one object: of each its place in the file, its cells and the verdict."""
     with open(path, newline="", encoding="utf-8-sig") as file:
@@ -95,9 +104,9 @@ def confirmed(path, number, calibration):
             raise scripting.Failure(f"{path}, line {at}: a probability is not a number from 0 to 1") from None
         certainty = min(probability / place, 1.0) if place > 0 else 1.0
         try:
-            before = numbers_of((line.get("calibration") or "").split(), -math.inf, math.inf) or calibration
+            before = written_by(line.get("calibration")) or calibration
             place, certainty = (said_by(said, calibration[k:k + 2], before[k:k + 2]) for k, said in ((0, place), (2, certainty)))
-        except (ValueError, IndexError, ZeroDivisionError):
+        except ValueError:
             raise scripting.Failure(f"{path}, line {at}: calibration is '{line['calibration']}', not the four numbers that `batch` "
                                     "wrote") from None
         rows.append((place, certainty, scenes.setdefault(line["scan"], len(scenes)), *VERDICTS[verdict]))
@@ -162,10 +171,8 @@ def main():
     constant, slope, turned_constant, turned_slope, poses = (numbers.GetValue(k) for k in range(5))
     if math.isclose(before, after, abs_tol=1e-12):
         print("the probabilities hold in these scans as well as calibrated ones would: they stay as they are")
-    for what, line in (("a copy is there", slope), ("the rotation is right", turned_slope)):
-        if line <= LEAST_SLOPE:
-            print(f"where the model is surer that {what}, it is not right more often: see that the verdicts are of these poses, and 1 "
-                  "and 0 not exchanged")
+    if warning := table.GetFieldData().GetAbstractArray("Warning").GetValue(0):
+        print(f"warning: {warning}")
     scripting.write_model(calibrated, options.out)
     print(f"{options.out}: calibrated on {poses:.0f} poses; {line_words('places', constant, slope)}, "
           f"{line_words('rotations', turned_constant, turned_slope)}")

@@ -89,6 +89,8 @@ TEST(ModelCalibration, ClaimsStayInTheirOrder)
 {
   const auto report = meam::fitModelCalibration(spread([](double x) { return -x; }));
   EXPECT_EQ(report.calibration.place.slope, 0.1);
+  EXPECT_NE(report.warning.find("surer that a copy is there, it"), std::string::npos) << report.warning;
+  EXPECT_EQ(meam::fitModelCalibration(alike(10, 4, 3, 0.5)).warning, "");
 }
 
 TEST(ModelCalibration, ASecondFitTakesThePlaceOfTheFirst)
@@ -118,8 +120,11 @@ TEST(ModelCalibration, TheSamePosesTeachTheSameAgain)
     pose.certainty = first.certaintyOf(pose.certainty);
   }
   const auto report = meam::fitModelCalibration(judged, first);
-  EXPECT_EQ(report.calibration.place, first.place);
-  EXPECT_EQ(report.calibration.rotation, first.rotation);
+  for (const auto line : { &meam::ModelCalibration::place, &meam::ModelCalibration::rotation })
+  {
+    EXPECT_EQ((report.calibration.*line).constant, (first.*line).constant);
+    EXPECT_EQ((report.calibration.*line).slope, (first.*line).slope);
+  }
   EXPECT_EQ(report.calibration.poses, 40);
   EXPECT_EQ(report.lossBefore, report.lossAfter);
 }
