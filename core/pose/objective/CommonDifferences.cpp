@@ -17,7 +17,8 @@ constexpr double OnPart = 0.02;          // of the diameter: surface so near to 
 constexpr double OnPartNoises = 2.0;     // or so near in standard deviations of the scan's noise
 constexpr double LeastFacing = 0.35;     // cosine towards the sensor: flatter surface is measured badly
 constexpr int PointsOfPatch = 2;         // and no fewer show it on a copy
-constexpr int CopiesOfPatch = 4;         // show it: fewer may be wrong at the same place
+constexpr int CopiesOfPatch = 4;         // show it: fewer may be wrong at the same place,
+constexpr double ShareOfCopies = 0.25;   // and fewer of all of them lie in one way
 constexpr double MostOfCopies = 0.5;     // of them, on which a patch differs
 constexpr int PatchesOfRing = 2;         // at least, and what chance makes does not go around a part
 constexpr int DifferentByChance = 1;     // and one more of so many that are told of:
@@ -66,10 +67,12 @@ public:
   {
   }
 
-  void collect(int copy, Patches& ofPart, Patches& beside) const
+  void collect(int copy, Patches& ofPart, Patches& beside, Patches& before) const
   {
-    ofPart.resize(this->OfPart->count);
-    beside.resize(this->OfPart->count);
+    for (Patches* patches : { &ofPart, &beside, &before })
+    {
+      patches->resize(this->OfPart->count);
+    }
     const Pose& pose = this->Copies[copy];
     const std::vector<Eigen::Isometry3f> others = this->lyingBeside(pose.T_scene_model);
     const Eigen::Isometry3f T = pose.T_scene_model.cast<float>();
@@ -78,8 +81,12 @@ public:
     for (const int i : this->Model.visibility->samplesInSight(pose.T_scene_model, this->InScene.sensor, LeastFacing))
     {
       const float facing = this->Model.surface.normals[i].dot(towards);
-      this->addPart(
-        T * this->Model.surface.points[i], T.linear() * towards, onPart / facing, ofPart[this->OfPart->ofSamples[i]]);
+      const int patch = this->OfPart->ofSamples[i];
+      this->addPart(T * this->Model.surface.points[i], T.linear() * towards, onPart / facing, ofPart[patch]);
+      if (this->OfPart->isRing[patch])
+      {
+        this->addBefore(T * this->Model.surface.points[i], others, onPart / facing, before[patch]);
+      }
       if (this->Face / facing <= MostSameFace * static_cast<float>(this->Model.diameter))
       {
         for (int k = this->OfPart->begins[i]; k < this->OfPart->begins[i + 1]; ++k)
@@ -112,6 +119,20 @@ private:
     patch.different += isSurface && !isExplained;
     patch.asPart += relation == DepthGrid::Relation::InFront;
     patch.hidden += relation == DepthGrid::Relation::Hidden || isExplained;
+  }
+
+  void addBefore(
+    const Eigen::Vector3f& point, const std::vector<Eigen::Isometry3f>& others, float behind, PatchPoints& patch) const
+  {
+    const FineDepth& depth = this->InScene.fineDepth;
+    const DepthGrid::Relation relation = depth.relation(point, behind);
+    const bool isHidden = relation == DepthGrid::Relation::Hidden;
+    const int cell = isHidden ? depth.cellAt(point) : -1;
+    const Eigen::Vector3f* mean = cell < 0 ? nullptr : depth.meanIn(cell);
+    const bool isExplained = isHidden && (!mean || this->isOfOther(*mean, others, behind));
+    patch.different += isHidden && !isExplained;
+    patch.asPart += relation == DepthGrid::Relation::OnSurface || relation == DepthGrid::Relation::InFront;
+    patch.hidden += isExplained;
   }
 
   /// Of the others, T_model_scene.
@@ -174,11 +195,12 @@ int differentOnMost(const std::vector<Patches>& ofCopies, const std::vector<char
       }
     }
   }
+  const double all = static_cast<double>(ofCopies.size());
   int told = 0, different = 0;
   for (std::size_t k = 0; k < patches.size(); ++k)
   {
     const Copies& copies = patches[k];
-    const bool isTold = copies.showing >= CopiesOfPatch;
+    const bool isTold = copies.showing >= std::max<double>(CopiesOfPatch, ShareOfCopies * all);
     told += isTold;
     if (isTold && copies.different > MostOfCopies * copies.showing)
     {
@@ -190,16 +212,17 @@ int differentOnMost(const std::vector<Patches>& ofCopies, const std::vector<char
 }
 
 CommonDifferences commonDifferences(
-  const Poses& poses, const Poses& beside, const Scene& scene, const TrainedModel& model, int threads)
+  const Poses& poses, const Poses& mayBeThere, const Scene& scene, const TrainedModel& model, int threads)
 {
   if (poses.size() < CopiesOfPatch)
   {
     return {};
   }
-  const CopiesInSight copies(poses, beside, scene, model, threads);
-  std::vector<Patches> ofPart(poses.size()), besidePart(poses.size());
+  const CopiesInSight copies(poses, mayBeThere, scene, model, threads);
+  std::vector<Patches> ofPart(poses.size()), beside(poses.size()), before(poses.size());
   parallelForEach(
-    static_cast<int>(poses.size()), threads, {}, [&](int i) { copies.collect(i, ofPart[i], besidePart[i]); });
-  return { differentOnMost(ofPart, copies.isRing()), differentOnMost(besidePart, copies.isRing()) };
+    static_cast<int>(poses.size()), threads, {}, [&](int i) { copies.collect(i, ofPart[i], beside[i], before[i]); });
+  return { differentOnMost(ofPart, copies.isRing()),
+    differentOnMost(beside, copies.isRing()) + differentOnMost(before, copies.isRing()) };
 }
 }

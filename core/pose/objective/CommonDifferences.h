@@ -13,11 +13,11 @@ namespace meam
 struct CommonDifferences
 {
   int missing = 0; ///< of the part: the sensor saw past it
-  int surplus = 0; ///< beside it, where one of its faces ends: there is surface, of no part beside it
+  int surplus = 0; ///< beside it, where one of its faces ends, or before a ring: there is surface, of no part beside it
 };
 
-/// Of poses in the local frame. `beside`: those of all copies that may be there, too, these among them; one whose body
-/// cuts into another does not lie beside it. The same for any number of threads.
+/// Of poses in the local frame. `mayBeThere`: those of all copies that may be there, too, these among them; one whose
+/// body cuts into another does not lie beside it. The same for any number of threads.
 CommonDifferences commonDifferences(
-  const Poses& poses, const Poses& beside, const Scene& scene, const TrainedModel& model, int threads);
+  const Poses& poses, const Poses& mayBeThere, const Scene& scene, const TrainedModel& model, int threads);
 }

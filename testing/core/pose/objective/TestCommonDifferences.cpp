@@ -16,6 +16,7 @@ meam::TriangleMesh pin(double radiusOfHead)
 }
 
 meam::TriangleMesh pinWithHead() { return pin(8.0); }
+meam::TriangleMesh plainPin() { return pin(4.0); }
 
 /// A mesh with its vertices at so much along an axis moved.
 meam::TriangleMesh stretched(meam::TriangleMesh mesh, int axis, float from, float to)
@@ -44,6 +45,16 @@ Places apart(int copies)
   for (int i = 0; i < copies; ++i)
   {
     places.push_back(scenes::lying(100.0 * (i % 2), 100.0 * (i / 2), 70.0 * i));
+  }
+  return places;
+}
+
+Places pinsApart()
+{
+  Places places = apart(4);
+  for (Eigen::Isometry3d& place : places)
+  {
+    place = place * Eigen::Translation3d(0.0, 0.0, 8.0) * Eigen::AngleAxisd(M_PI / 2.0, Eigen::Vector3d::UnitY());
   }
   return places;
 }
@@ -104,13 +115,29 @@ TEST(CommonDifferences, ARingIsSeveralPatches)
 {
   // The head of a pin, 3 mm high: one ring of patches of 3 mm.
   const meam::TrainedModel& model = scenes::trained<pinWithHead>();
-  Places places = apart(4);
-  for (Eigen::Isometry3d& place : places)
+  EXPECT_EQ(differencesOn(pinsApart(), pinWithHead(), {}, 20, model).missing, 0);
+  EXPECT_GE(differencesOn(pinsApart(), plainPin(), {}, 20, model).missing, 1);
+}
+
+TEST(CommonDifferences, ARingBeforeThePartIsSurplus)
+{
+  const meam::TrainedModel& model = scenes::trained<plainPin>();
+  EXPECT_EQ(differencesOn(pinsApart(), plainPin(), {}, 20, model).surplus, 0);
+  const meam::TriangleMesh collar = parts::revolved({ { 0.0, 0.0 }, { 4.0, 0.0 }, { 4.0, 20.0 }, { 8.0, 20.0 },
+                                                      { 8.0, 30.0 }, { 4.0, 30.0 }, { 4.0, 50.0 }, { 0.0, 50.0 } },
+    48);
+  EXPECT_GE(differencesOn(pinsApart(), collar, {}, 20, model).surplus, 1);
+}
+
+TEST(CommonDifferences, WhatLiesOnThePartSomewhereIsNone)
+{
+  std::vector<scenes::Copy> bars; // across each pin at another place, and through none
+  for (const Eigen::Isometry3d& place : apart(4))
   {
-    place = place * Eigen::Translation3d(0.0, 0.0, 8.0) * Eigen::AngleAxisd(M_PI / 2.0, Eigen::Vector3d::UnitY());
+    const float x = 4.0f + 10.0f * static_cast<float>(bars.size());
+    bars.push_back({ parts::box({ x, -15.0f, 13.0f }, { x + 8.0f, 15.0f, 17.0f }), place });
   }
-  EXPECT_EQ(differencesOn(places, pinWithHead(), {}, 20, model).missing, 0);
-  EXPECT_GE(differencesOn(places, pin(4.0), {}, 20, model).missing, 1);
+  EXPECT_EQ(differencesOn(pinsApart(), plainPin(), bars, 20, scenes::trained<plainPin>()).surplus, 0);
 }
 
 TEST(CommonDifferences, ThreeCopiesTellNothing)
