@@ -18,6 +18,7 @@ namespace meam
 namespace
 {
 constexpr std::size_t MostWithoutNames = 10; // x y z, an intensity, a colour and a normal
+constexpr std::size_t LeastNumbered = 20;    // lines: of fewer points x may count, too
 constexpr std::int64_t Beginning = 1 << 16;  // bytes that isXYZ() looks at
 constexpr std::size_t MostHeads = 8;         // lines before the points that may name the columns
 constexpr char Separators[] = { ';', '\t', ',', ' ' };
@@ -396,17 +397,21 @@ public:
     }
   }
 
-  /// The columns of points without names: after x y z an intensity, where one stands alone, colours and normals.
+  /// The columns of points without names: after x y z an intensity, where one stands alone, colours and normals. Before
+  /// them the line's number may stand, or its row and column.
   Columns columns() const
   {
+    const std::size_t point = this->isNumber() ? 1 : this->isRowAndColumn() ? 2 : 0;
+    const int x = static_cast<int>(point);
     Columns columns;
-    std::size_t first = 3;
-    if (this->Used % 3 == 1)
+    columns.point = { x, x + 1, x + 2 };
+    std::size_t first = point + 3;
+    if ((this->Used - point) % 3 == 1)
     {
-      const bool isFirst =
-        this->Used == 4 || ((this->isColor(4) || this->isNormal(4)) && (this->IsPTS || !this->isColor(3)));
-      columns.intensity = isFirst ? 3 : static_cast<int>(this->Used) - 1;
-      first = isFirst ? 4 : 3;
+      const bool isFirst = this->Used == first + 1 || ((this->isColor(first + 1) || this->isNormal(first + 1)) &&
+                                                        (this->IsPTS || !this->isColor(first)));
+      columns.intensity = isFirst ? x + 3 : static_cast<int>(this->Used) - 1;
+      first += isFirst ? 1 : 0;
     }
     for (std::size_t k = first; k + 3 <= this->Used; k += 3)
     {
@@ -424,6 +429,34 @@ public:
   }
 
 private:
+  /// Whether the first of four columns and more counts the lines.
+  bool isNumber() const
+  {
+    bool isSo = this->Used > 3 && this->Values.size() >= LeastNumbered * this->Width;
+    for (std::size_t i = this->Width; isSo && i < this->Values.size(); i += this->Width)
+    {
+      isSo = this->Values[i] == this->Values[0] + static_cast<float>(i / this->Width);
+    }
+    return isSo;
+  }
+  /// Whether the first two of five columns, or eight, are places of an image, line after line: as whole numbers x and y
+  /// of points may be, too, but two more columns are none of z, an intensity and a colour.
+  bool isRowAndColumn() const
+  {
+    bool isByRows = this->Used % 3 == 2 && this->Values.size() >= LeastNumbered * this->Width, isByColumns = isByRows;
+    for (std::size_t i = 0; (isByRows || isByColumns) && i < this->Values.size(); i += this->Width)
+    {
+      const float* at = this->Values.data() + i;
+      const float* before = at - (i == 0 ? 0 : this->Width);
+      const bool isPlace = at[0] == std::floor(at[0]) && at[1] == std::floor(at[1]) && at[0] >= 0.0f && at[1] >= 0.0f;
+      const auto follows = [&](int slow, int fast) {
+        return isPlace && (i == 0 || at[slow] > before[slow] || (at[slow] == before[slow] && at[fast] > before[fast]));
+      };
+      isByRows = isByRows && follows(0, 1);
+      isByColumns = isByColumns && follows(1, 0);
+    }
+    return isByRows || isByColumns;
+  }
   /// Whether three columns from `first` on are unit vectors, as far as they were measured.
   bool isNormal(std::size_t first) const
   {

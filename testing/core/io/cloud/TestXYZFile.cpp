@@ -74,6 +74,31 @@ TEST(XYZFile, columnsWithoutNames)
   EXPECT_TRUE(readXYZ("1 2 3 5.5 -3 7\n").colors.empty()) << "of no known kind";
 }
 
+TEST(XYZFile, numbersOfLinesAndPlacesOfAnImageAreNoCoordinates)
+{
+  std::string numbered, places, byColumns, grid;
+  for (int i = 0; i < 24; ++i)
+  {
+    const std::string point = std::to_string(i % 5) + ".5 7 900", row = std::to_string(i / 6),
+                      column = std::to_string(i % 6);
+    numbered += std::to_string(i + 1) + " " + point + " 1 2 3\n";
+    places += row + " " + column + " " + point + "\n";
+    byColumns += column + " " + row + " " + point + " 10 20 30\n";
+    grid += column + " " + row + " 900 10 20 30\n";
+  }
+  for (const std::string* text : { &numbered, &places, &byColumns })
+  {
+    const meam::MeasuredCloud data = readXYZ(*text);
+    ASSERT_EQ(data.cloud.size(), 24u);
+    expectPoint(data, 0, 0.5f, 7, 900);
+    expectPoint(data, 23, 3.5f, 7, 900);
+    EXPECT_EQ(data.colors.empty(), text == &places) << *text;
+    EXPECT_TRUE(data.intensities.empty());
+  }
+  expectPoint(readXYZ(grid), 7, 1, 1, 900);
+  expectPoint(readXYZ("1 2.5 3 4\n2 3.5 3 4\n"), 1, 2, 3.5f, 3);
+}
+
 TEST(XYZFile, whatWasNotMeasuredIsNaN)
 {
   const meam::MeasuredCloud data = readXYZ("x,y,z\n,,\nnan,NaN,-\n1,2,3\n1.#QNAN,2,3\nnull,2,3\n");
