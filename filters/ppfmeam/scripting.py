@@ -23,7 +23,7 @@ from vtkmodules.vtkIOParallelXML import vtkXMLPartitionedDataSetCollectionWriter
 from vtkmodules.vtkIOXML import vtkXMLPartitionedDataSetCollectionReader
 
 from . import Error as Failure
-from . import choices, filters
+from . import choices, filters, progress
 
 TEXTS = (".xyz", ".csv", ".txt", ".asc", ".pts")  # with a point in each line
 CLOUDS = (".pcd", ".ply", *TEXTS)
@@ -39,10 +39,11 @@ STAGES = ("Training", "SceneEdges", "Scene", "Tangents", "Detection", "Screening
 
 class Interruption:
     """Ctrl-C in a script. Python looks at signals between its own steps alone, so what works in VTK is asked to stop whenever
-    it tells of its progress."""
+    it tells of its progress, which is shown as well."""
 
     def __init__(self):
         self.asked = self.watched = False
+        self.shows, self.steps = True, None  # how far the steps are, in a terminal
 
     def ask(self, *_):
         self.asked = True
@@ -52,20 +53,23 @@ class Interruption:
     def watch(self, step, algorithm, *arguments):
         """Calls the step, with the filters before the algorithm watched as well."""
         ours = signal.getsignal(signal.SIGINT) == self.ask  # a program of others has its own
-        watched = [(a, a.AddObserver("ProgressEvent", self.stop)) for a in upstream(algorithm)] if ours else []
-        self.watched = True
+        watched = [(a, a.AddObserver("ProgressEvent", self.hear)) for a in upstream(algorithm)] if ours else []
+        self.watched, self.steps = True, progress.Steps()
         try:
             step(*arguments)
         finally:
             self.watched = False
+            self.steps.end()
             for filter, observer in watched:
                 filter.RemoveObserver(observer)
         if self.asked:
             raise KeyboardInterrupt
 
-    def stop(self, filter, event):
+    def hear(self, filter, event):
         if self.asked:
             filter.AbortExecuteOn()
+        if self.shows:
+            self.steps.show(filter)
 
 
 interruption = Interruption()
@@ -685,8 +689,13 @@ def symmetry_words(samples):
     turns = [f"{angle_of(row):.0f}" for row in tuples(samples, "SymmetriesDiscrete")]
     if turns:
         lines.append(f"{len(turns)} exact turn{'s' * (len(turns) > 1)}: {', '.join(turns)} degrees")
-    lines += [f"nearly {angle:.0f} degrees: {100 * overlap:.1f} % of the surface, the rest {off}"
-              for angle, overlap, off in near_symmetries(samples)]
+    near = near_symmetries(samples)
+    while near:  # those that are as good as the first in one line
+        _, overlap, off = near[0]
+        alike = [angle for angle, share, other in near if share > overlap - AS_GOOD and other == off]
+        near = [one for one in near if one[1] <= overlap - AS_GOOD or one[2] != off]
+        degrees = sorted({f"{angle:.0f}" for angle in alike}, key=int)
+        lines.append(f"nearly {', '.join(degrees)} degrees: {100 * overlap:.1f} % of the surface, the rest {off}")
     return lines or ["none"]
 
 

@@ -3,15 +3,10 @@
 import sys
 import time
 
+from ..progress import duration
+
 PAUSE = 10.0  # seconds between two lines where they stay, as in a file
 TERMINAL_PAUSE = 0.2
-
-
-def duration(seconds):
-    """Such as 4 s, 12 min, 3.5 h."""
-    if seconds < 100:
-        return f"{seconds:.0f} s"
-    return f"{seconds / 60:.0f} min" if seconds < 6000 else f"{seconds / 3600:.1f} h"
 
 
 class Progress:

@@ -132,6 +132,7 @@ def finish(options, plan, journal):
 def run(options, ranks):
     """In every process; `ranks` are all of them."""
     start = time.monotonic()
+    scripting.interruption.shows = False  # a run has a line of its own
     if ranks.size > 1 and not options.threads:
         options.threads = 1
     journal = Journal(options.out + ".run")
