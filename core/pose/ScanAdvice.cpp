@@ -67,7 +67,7 @@ std::string scanAdvice(const ScanQuality& quality, const DetectionReport& report
   else if (!poses.empty() && poses.front().contradictions.surplus > poses.front().contradictions.missing)
   {
     sentences.push_back(
-      "On most copies in the scan the surface goes on where the part's ends: another part lies there, "
+      "On most copies in the scan there is surface that the part does not have: another part lies there, "
       "or the CAD file is of another version.");
   }
   else if (!poses.empty() && poses.front().contradictions.missing > 0)

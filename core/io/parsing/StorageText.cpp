@@ -119,7 +119,9 @@ nlohmann::json parseStorage(const std::string& path, const std::string& text)
   {
     failStorage(path, "is empty");
   }
-  return bare[0] == '<' ? valuesInXML(path, text) : bare[0] == '{' ? parseJSON(path, text) : parseYAML(path, text);
+  const std::size_t first = bare.find_first_not_of(Blanks, 1);
+  const bool isJSON = bare[0] == '{' && (first == std::string_view::npos || bare[first] == '"' || bare[first] == '}');
+  return bare[0] == '<' ? valuesInXML(path, text) : isJSON ? parseJSON(path, text) : parseYAML(path, text);
 }
 
 std::vector<double> numbersOfMatrix(const nlohmann::json& value, const std::string& path, const std::string& what)

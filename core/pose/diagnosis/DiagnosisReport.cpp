@@ -164,7 +164,7 @@ std::string contradictionWords(const Contradictions& contradictions)
   }
   if (contradictions.surplus > contradictions.missing)
   {
-    return "on most copies in the scan there is surface where the part's ends, over " +
+    return "on most copies in the scan there is surface that the part does not have, over " +
            std::to_string(contradictions.surplus) + " patches";
   }
   if (contradictions.missing > 0)

@@ -88,6 +88,10 @@ TEST(CameraFile, everyForm)
       "  - 0.0\n  - 320\n  - 0\n  - 801.0\n  - 240\n  - 0\n  - 0\n  - 1\ndistortion_coefficients:\n"
       "  data:\n    - -0.3\n    - 1.0e-1\n    - 0\n    - +0.002\n    - 0\n",
       { 640, 480 }, { 800, 801, 320, 240 }, { -0.3, 0.1, 0, 0.002, 0 }, identity, 1.0 },
+    { "YAML in braces",
+      "{ image_width: 640, image_height: 480,\n  camera_matrix: {rows: 3, cols: 3, data: [800, 0, 320, 0, 801, 240, 0, "
+      "0, 1]}}\n",
+      { 640, 480 }, { 800, 801, 320, 240 }, none, identity, 1.0 },
     { "BOP", bop, { 640, 480 }, { 572.41, 573.57, 325.26, 242.05 }, none, identity, 0.1 } };
   for (const auto& [name, text, size, matrix, lens, T, scale] : forms)
   {

@@ -129,6 +129,5 @@ TEST(ScanAdvice, WhatStandsOutTheMoreImportantFirst)
   ofOtherPart[0].contradictions.missing = 2;
   EXPECT_TRUE(says(meam::scanAdvice(goodScan(), report, ofOtherPart, 100.0), "is missing on most copies"));
   ofOtherPart[0].contradictions.surplus = 3;
-  EXPECT_TRUE(
-    says(meam::scanAdvice(goodScan(), report, ofOtherPart, 100.0), "the surface goes on where the part's ends"));
+  EXPECT_TRUE(says(meam::scanAdvice(goodScan(), report, ofOtherPart, 100.0), "surface that the part does not have"));
 }
