@@ -2,12 +2,17 @@
 #include "pose/objective/CommonDifferences.h"
 
 #include "base/Parallel.h"
+#include "base/sequences/Sequences.h"
 #include "model/body/SurroundingPatches.h"
 #include "pose/objective/BodyOverlap.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <numeric>
+#include <optional>
+#include <utility>
 
 namespace meam
 {
@@ -20,6 +25,7 @@ constexpr int PointsOfPatch = 2;         // and no fewer show it on a copy
 constexpr int CopiesOfPatch = 4;         // show it: fewer may be wrong at the same place,
 constexpr double ShareOfCopies = 0.25;   // and fewer of all of them lie in one way
 constexpr double MostOfCopies = 0.5;     // of them, on which a patch differs
+constexpr std::size_t MostTurns = 2;     // under which a part looks the same: more would find one for any difference
 constexpr int PatchesOfRing = 2;         // at least, and what chance makes does not go around a part
 constexpr int DifferentByChance = 1;     // and one more of so many that are told of:
 constexpr int ToldOfEachDifferent = 100; // of right parts two of four hundred were, at most
@@ -40,6 +46,9 @@ struct PatchPoints
 
 using Patches = std::vector<PatchPoints>; ///< by their numbers
 
+/// Of the part, beside it and before its rings.
+using PatchesOfCopy = std::array<Patches, 3>;
+
 /// Whether the sensor saw past a point in all cells about its own, too. `behind`: mm along the line of sight.
 bool isClearAbout(const Eigen::Vector3f& point, const Eigen::Vector3f& towards, float behind, const FineDepth& depth)
 {
@@ -56,9 +65,8 @@ bool isClearAbout(const Eigen::Vector3f& point, const Eigen::Vector3f& towards, 
 class CopiesInSight
 {
 public:
-  CopiesInSight(const Poses& poses, const Poses& beside, const Scene& scene, const TrainedModel& model, int threads)
-    : Copies(poses)
-    , Others(beside)
+  CopiesInSight(const Poses& beside, const Scene& scene, const TrainedModel& model, int threads)
+    : Others(beside)
     , InScene(scene)
     , Model(model)
     , Noise(static_cast<float>(OnPartNoises * scene.quality.noise))
@@ -67,18 +75,16 @@ public:
   {
   }
 
-  void collect(int copy, Patches& ofPart, Patches& beside, Patches& before) const
+  /// `others`: what lies beside, of lyingBeside().
+  PatchesOfCopy at(const Eigen::Isometry3d& T_scene_model, const std::vector<Eigen::Isometry3f>& others) const
   {
-    for (Patches* patches : { &ofPart, &beside, &before })
-    {
-      patches->resize(this->OfPart->count);
-    }
-    const Pose& pose = this->Copies[copy];
-    const std::vector<Eigen::Isometry3f> others = this->lyingBeside(pose.T_scene_model);
-    const Eigen::Isometry3f T = pose.T_scene_model.cast<float>();
-    const Eigen::Vector3f towards = this->Model.visibility->towards(pose.T_scene_model, this->InScene.sensor);
+    PatchesOfCopy patches;
+    patches.fill(Patches(this->OfPart->count));
+    auto& [ofPart, beside, before] = patches;
+    const Eigen::Isometry3f T = T_scene_model.cast<float>();
+    const Eigen::Vector3f towards = this->Model.visibility->towards(T_scene_model, this->InScene.sensor);
     const float onPart = std::max(static_cast<float>(OnPart * this->Model.diameter), this->Noise);
-    for (const int i : this->Model.visibility->samplesInSight(pose.T_scene_model, this->InScene.sensor, LeastFacing))
+    for (const int i : this->Model.visibility->samplesInSight(T_scene_model, this->InScene.sensor, LeastFacing))
     {
       const float facing = this->Model.surface.normals[i].dot(towards);
       const int patch = this->OfPart->ofSamples[i];
@@ -95,6 +101,24 @@ public:
         }
       }
     }
+    return patches;
+  }
+
+  /// Of the others, T_model_scene.
+  std::vector<Eigen::Isometry3f> lyingBeside(const Eigen::Isometry3d& T_scene_model) const
+  {
+    const Eigen::Vector3d middle = this->Model.visibility->middle().cast<double>();
+    std::vector<Eigen::Isometry3f> beside;
+    for (const Pose& other : this->Others)
+    {
+      const Eigen::Isometry3d& T = other.T_scene_model;
+      if (translationError(T, T_scene_model, middle) < MostApart * this->Model.diameter &&
+          !bodiesOverlap(this->Model, T, T_scene_model))
+      {
+        beside.push_back(T.inverse().cast<float>());
+      }
+    }
+    return beside;
   }
 
   const std::vector<char>& isRing() const { return this->OfPart->isRing; }
@@ -135,23 +159,6 @@ private:
     patch.hidden += isExplained;
   }
 
-  /// Of the others, T_model_scene.
-  std::vector<Eigen::Isometry3f> lyingBeside(const Eigen::Isometry3d& T_scene_model) const
-  {
-    const Eigen::Vector3d middle = this->Model.visibility->middle().cast<double>();
-    std::vector<Eigen::Isometry3f> beside;
-    for (const Pose& other : this->Others)
-    {
-      const Eigen::Isometry3d& T = other.T_scene_model;
-      if (translationError(T, T_scene_model, middle) < MostApart * this->Model.diameter &&
-          !bodiesOverlap(this->Model, T, T_scene_model))
-      {
-        beside.push_back(T.inverse().cast<float>());
-      }
-    }
-    return beside;
-  }
-
   /// Whether a point is of the bin or lies on another copy. `tolerance`: mm, what was measured may be off it.
   bool isOfOther(const Eigen::Vector3f& point, const std::vector<Eigen::Isometry3f>& others, float tolerance) const
   {
@@ -165,7 +172,6 @@ private:
              [&](const Eigen::Isometry3f& other) { return this->Model.surfaceDistance.at(other * point) < near; });
   }
 
-  const Poses& Copies;
   const Poses& Others;
   const Scene& InScene;
   const TrainedModel& Model;
@@ -173,25 +179,66 @@ private:
   std::shared_ptr<const PartPatches> OfPart;
 };
 
-/// Patches that differ on most copies, beyond chance.
-int differentOnMost(const std::vector<Patches>& ofCopies, const std::vector<char>& isRing)
+/// How much of a patch is told to differ by the points of it that a copy shows; nothing where it shows too few.
+std::optional<double> differenceIn(const PatchPoints& points)
+{
+  const int seen = points.asPart + points.different;
+  return seen >= PointsOfPatch && seen > points.hidden ? std::optional(static_cast<double>(points.different) / seen)
+                                                       : std::nullopt;
+}
+
+/// By the numbers of the patches, one kind behind another.
+std::vector<double> differencesOf(const PatchesOfCopy& patches)
+{
+  std::vector<double> differences;
+  for (const Patches& kind : patches)
+  {
+    for (const PatchPoints& points : kind)
+    {
+      differences.push_back(differenceIn(points).value_or(0.0));
+    }
+  }
+  return differences;
+}
+
+/// By copies the patches as they are turned.
+using TurnsOfCopies = std::vector<std::vector<PatchesOfCopy>>;
+
+/// Of each copy the turn in which it differs where those before it do.
+std::vector<PatchesOfCopy> turnedAlike(const TurnsOfCopies& copies)
+{
+  std::vector<PatchesOfCopy> alike;
+  std::vector<double> sum(differencesOf(copies.front().front()).size());
+  for (const std::vector<PatchesOfCopy>& turns : copies)
+  {
+    const auto differences = mapped<std::vector<double>>(turns, differencesOf);
+    const auto agreements = mapped<double>(differences,
+      [&](const std::vector<double>& one) { return std::inner_product(one.begin(), one.end(), sum.begin(), 0.0); });
+    const auto best = std::max_element(agreements.begin(), agreements.end()) - agreements.begin();
+    std::transform(sum.begin(), sum.end(), differences[best].begin(), sum.begin(), std::plus<>());
+    alike.push_back(turns[best]);
+  }
+  return alike;
+}
+
+/// Patches of a kind that differ on most of the copies that show them, so many at least, beyond chance.
+int differentOnMost(
+  const std::vector<PatchesOfCopy>& ofCopies, std::size_t kind, std::size_t least, const std::vector<char>& isRing)
 {
   struct Copies
   {
     int showing = 0;
     double different = 0.0;
   };
-  std::vector<Copies> patches(ofCopies.front().size());
-  for (const Patches& ofCopy : ofCopies)
+  std::vector<Copies> patches(isRing.size());
+  for (const PatchesOfCopy& ofCopy : ofCopies)
   {
     for (std::size_t k = 0; k < patches.size(); ++k)
     {
-      const PatchPoints& points = ofCopy[k];
-      const int seen = points.asPart + points.different;
-      if (seen >= PointsOfPatch && seen > points.hidden)
+      if (const std::optional<double> difference = differenceIn(ofCopy[kind][k]))
       {
         ++patches[k].showing;
-        patches[k].different += static_cast<double>(points.different) / seen;
+        patches[k].different += *difference;
       }
     }
   }
@@ -200,7 +247,7 @@ int differentOnMost(const std::vector<Patches>& ofCopies, const std::vector<char
   for (std::size_t k = 0; k < patches.size(); ++k)
   {
     const Copies& copies = patches[k];
-    const bool isTold = copies.showing >= std::max<double>(CopiesOfPatch, ShareOfCopies * all);
+    const bool isTold = copies.showing >= std::max<double>(least, ShareOfCopies * all);
     told += isTold;
     if (isTold && copies.different > MostOfCopies * copies.showing)
     {
@@ -218,11 +265,29 @@ CommonDifferences commonDifferences(
   {
     return {};
   }
-  const CopiesInSight copies(poses, mayBeThere, scene, model, threads);
-  std::vector<Patches> ofPart(poses.size()), beside(poses.size()), before(poses.size());
-  parallelForEach(
-    static_cast<int>(poses.size()), threads, {}, [&](int i) { copies.collect(i, ofPart[i], beside[i], before[i]); });
-  return { differentOnMost(ofPart, copies.isRing()),
-    differentOnMost(beside, copies.isRing()) + differentOnMost(before, copies.isRing()) };
+  const CopiesInSight copies(mayBeThere, scene, model, threads);
+  std::vector<Eigen::Isometry3d> turns{ Eigen::Isometry3d::Identity() };
+  if (model.symmetries.discrete.size() < MostTurns)
+  {
+    turns.insert(turns.end(), model.symmetries.discrete.begin(), model.symmetries.discrete.end());
+  }
+  TurnsOfCopies ofCopies(poses.size());
+  parallelForEach(static_cast<int>(poses.size()), threads, {},
+    [&](int i)
+    {
+      const Eigen::Isometry3d& T = poses[i].T_scene_model;
+      const std::vector<Eigen::Isometry3f> others = copies.lyingBeside(T);
+      ofCopies[i] =
+        mapped<PatchesOfCopy>(turns, [&](const Eigen::Isometry3d& turn) { return copies.at(T * turn, others); });
+    });
+  const auto asFound =
+    mapped<PatchesOfCopy>(ofCopies, [](const std::vector<PatchesOfCopy>& turns) { return turns.front(); });
+  const std::vector<PatchesOfCopy> alike = turnedAlike(ofCopies);
+  const auto different = [&](std::size_t kind)
+  {
+    return std::max(differentOnMost(asFound, kind, CopiesOfPatch, copies.isRing()),
+      differentOnMost(alike, kind, CopiesOfPatch * turns.size(), copies.isRing()));
+  };
+  return { different(0), different(1) + different(2) };
 }
 }

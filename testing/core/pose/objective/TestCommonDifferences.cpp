@@ -49,9 +49,9 @@ Places apart(int copies)
   return places;
 }
 
-Places pinsApart()
+Places pinsApart(int copies = 4)
 {
-  Places places = apart(4);
+  Places places = apart(copies);
   for (Eigen::Isometry3d& place : places)
   {
     place = place * Eigen::Translation3d(0.0, 0.0, 8.0) * Eigen::AngleAxisd(M_PI / 2.0, Eigen::Vector3d::UnitY());
@@ -73,12 +73,13 @@ Places inRow(int copies, double distance)
 /// block on one corner.
 meam::CommonDifferences differencesOn(const Places& places, const meam::TriangleMesh& other,
   const std::vector<scenes::Copy>& beside = {}, std::size_t most = 20,
-  const meam::TrainedModel& model = scenes::trained<blockOnCorner>())
+  const meam::TrainedModel& model = scenes::trained<blockOnCorner>(),
+  const Eigen::Isometry3d& turnOfEverySecond = Eigen::Isometry3d::Identity())
 {
   std::vector<scenes::Copy> lying = beside;
   for (const Eigen::Isometry3d& place : places)
   {
-    lying.push_back({ other, place });
+    lying.push_back({ other, lying.size() % 2 == 0 ? place : place * turnOfEverySecond });
   }
   const meam::Scene scene =
     scenes::prepared(scenes::withTangents(scenes::seenFromAbove(lying), model.diameter), model.diameter);
@@ -127,6 +128,19 @@ TEST(CommonDifferences, ARingBeforeThePartIsSurplus)
                                                       { 8.0, 30.0 }, { 4.0, 30.0 }, { 4.0, 50.0 }, { 0.0, 50.0 } },
     48);
   EXPECT_GE(differencesOn(pinsApart(), collar, {}, 20, model).surplus, 1);
+}
+
+TEST(CommonDifferences, CopiesOfASymmetricPartAreTurnedAlike)
+{
+  // A collar near one end; half of the pins have it at the other.
+  const meam::TriangleMesh collar = parts::revolved({ { 0.0, 0.0 }, { 4.0, 0.0 }, { 4.0, 8.0 }, { 8.0, 8.0 },
+                                                      { 8.0, 18.0 }, { 4.0, 18.0 }, { 4.0, 50.0 }, { 0.0, 50.0 } },
+    48);
+  const Eigen::Isometry3d halfTurn =
+    Eigen::Translation3d(0.0, 0.0, 50.0) * Eigen::Isometry3d(Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitX()));
+  EXPECT_GE(differencesOn(pinsApart(10), collar, {}, 20, scenes::trained<plainPin>(), halfTurn).surplus, 1);
+  EXPECT_EQ(differencesOn(pinsApart(10), plainPin(), {}, 20, scenes::trained<plainPin>(), halfTurn).surplus, 0);
+  EXPECT_EQ(differencesOn(pinsApart(6), collar, {}, 20, scenes::trained<plainPin>(), halfTurn).surplus, 0) << "too few";
 }
 
 TEST(CommonDifferences, WhatLiesOnThePartSomewhereIsNone)
