@@ -177,6 +177,8 @@ MEAM_EXPORT Mesh loadMesh(const std::string& path);
 
 /// Reads a calibration of OpenCV (YAML, XML, JSON) or BOP (camera.json), for Scan::imageCamera.
 MEAM_EXPORT Camera loadCamera(const std::string& path);
+/// The same of a sensor's own camera, for scanOfDepths(): where it is does not matter.
+MEAM_EXPORT Camera loadDepthCamera(const std::string& path);
 /// mm for a value of 1 of the camera's depth images, as its calibration says; 1 where it does not.
 MEAM_EXPORT double loadDepthScale(const std::string& path);
 

@@ -98,6 +98,7 @@ Scan scanOfDepths(const std::vector<float>& depths, int width, int height, const
   return scan;
 }
 
-Camera loadCamera(const std::string& path) { return readCamera(path).camera; }
+Camera loadCamera(const std::string& path) { return readImageCamera(path); }
+Camera loadDepthCamera(const std::string& path) { return readCamera(path).camera; }
 double loadDepthScale(const std::string& path) { return readCamera(path).depthScale; }
 }

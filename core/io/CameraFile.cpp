@@ -108,8 +108,8 @@ bool isMoved(const nlohmann::json& value)
                                : value.is_number() && value != 0.0 && value != 1.0;
 }
 
-/// Fails for places of a camera whose frames or units the file does not tell.
-void refuseOtherPlaces(const std::string& path, const nlohmann::json& entries)
+/// Of a place whose frames or units the file does not tell.
+std::string doubtOfPlace(const nlohmann::json& entries)
 {
   const std::string rotation = keyOf(entries, { "rotation", "orientation", "quaternion" });
   for (const char* name :
@@ -118,23 +118,25 @@ void refuseOtherPlaces(const std::string& path, const nlohmann::json& entries)
     const std::string key = *name == 0 ? std::string() : keyOf(entries, { name });
     if (!key.empty() && isMoved(entries[key]))
     {
-      failCamera(path, "tells the camera's place as " + key +
-                         ", but neither from which frame nor in which unit: give T_camera_scene, 4x4, mm, which takes "
-                         "the scan's points to the camera's, or leave it out of the scan's own camera");
+      return "tells the camera's place as " + key +
+             ", but neither from which frame nor in which unit: give T_camera_scene, 4x4, mm, which takes the scan's "
+             "points to the camera's";
     }
   }
+  return {};
 }
 
-/// Fails for a place whose translation is likely in metres.
-void requireMM(const std::string& path, double distance)
+/// Of a place whose translation is likely in metres. `distance`: mm.
+std::string doubtOfUnit(double distance)
 {
-  if (distance > LeastOffset && distance < NearestCamera)
+  if (distance <= LeastOffset || distance >= NearestCamera)
   {
-    char told[32];
-    std::snprintf(told, sizeof told, "%.3g", distance);
-    failCamera(path, std::string("puts the camera ") + told +
-                       " mm from the scan's: its translation is likely in metres, give it in mm");
+    return {};
   }
+  char told[32];
+  std::snprintf(told, sizeof told, "%.3g", distance);
+  return std::string("puts the camera ") + told +
+         " mm from the scan's: its translation is likely in metres, give it in mm";
 }
 
 /// Where the camera is, from `T_camera_scene`, `R` and `T`, `rvec` and `tvec`, or Kalibr's `T_cn_cnm1`; the identity
@@ -174,16 +176,11 @@ Eigen::Isometry3d placeOf(const std::string& path, const nlohmann::json& entries
     T_camera_scene = transformOf(ofKalibr.data());
     T_camera_scene.translation() *= Metre;
   }
-  else
-  {
-    refuseOtherPlaces(path, entries);
-  }
   const std::optional<Eigen::Isometry3d> rigid = rigidOf(T_camera_scene.matrix());
   if (!rigid)
   {
     failCamera(path, "has a place of the camera that is not a rotation and a translation");
   }
-  requireMM(path, rigid->translation().norm());
   return *rigid;
 }
 
@@ -630,6 +627,9 @@ CameraFile readCamera(const std::string& path)
   const nlohmann::json entries = entriesOfCamera(path, matrix.is_null() ? parseStorage(path, bytes) : matrix);
   CameraFile result;
   result.camera = cameraOf(path, entries);
+  const bool isPlaced = !keyOf(entries, { "T_camera_scene", "T", "tvec", "T_cn_cnm1" }).empty();
+  result.doubtOfPlace =
+    isPlaced ? doubtOfUnit(result.camera.T_camera_scene.translation().norm()) : doubtOfPlace(entries);
   try
   {
     requireCamera(result.camera);
@@ -647,5 +647,15 @@ CameraFile readCamera(const std::string& path)
     }
   }
   return result;
+}
+
+Camera readImageCamera(const std::string& path)
+{
+  const CameraFile file = readCamera(path);
+  if (!file.doubtOfPlace.empty())
+  {
+    failCamera(path, file.doubtOfPlace);
+  }
+  return file.camera;
 }
 }

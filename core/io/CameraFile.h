@@ -10,7 +10,8 @@ namespace meam
 struct CameraFile
 {
   Camera camera;
-  double depthScale = 1.0; ///< mm that a depth image's value of 1 stands for
+  double depthScale = 1.0;    ///< mm that a depth image's value of 1 stands for
+  std::string doubtOfPlace{}; ///< why it may be elsewhere than `camera` has it, which is nothing to a sensor's own
 };
 
 /// Reads a camera's calibration, YAML, XML or JSON, by the entries of
@@ -26,8 +27,10 @@ struct CameraFile
 /// `distortion_model` or `model` that is another one is refused by its name, unless its coefficients are zeros, and a
 /// camera that is no pinhole, or whose image is binned or cut out, always. `depth_scale` may stand in any. The focal
 /// lengths and the principal point have to be there; a place under another name, as Open3D's `extrinsic` or ROS's
-/// `translation` and `rotation`, is refused, and so is one less than 1 mm away, which is in metres; other entries are
-/// skipped. Throws Error, naming the file, what is
-/// wrong and what to do.
+/// `translation` and `rotation`, is doubted, and so is one less than 1 mm away, which is in metres; other entries are
+/// skipped. Throws Error, naming the file, what is wrong and what to do.
 CameraFile readCamera(const std::string& path);
+
+/// The same of a camera beside the sensor. Throws Error for a doubt of its place, too.
+Camera readImageCamera(const std::string& path);
 }

@@ -166,6 +166,7 @@ void bindData(py::module_& module)
   module.def("load_depth_image", &loadDepthImage, Unlocked());
   module.def("load_image", [](const std::string& path) { return pixelsOf(loadImage(path)); });
   module.def("load_camera", &loadCamera, Unlocked());
+  module.def("load_depth_camera", &loadDepthCamera, Unlocked());
   module.def("load_depth_scale", &loadDepthScale, Unlocked());
   module.def("scan_of_depths",
     [](const py::array_t<float, py::array::c_style>& depths, const Camera& camera, double scale)

@@ -61,7 +61,7 @@ std::optional<meam::Camera> cameraOf(const char* file, vtkImageData* image, cons
 {
   if (file && *file)
   {
-    return meam::readCamera(file).camera;
+    return meam::readImageCamera(file);
   }
   const auto matrix = image ? numbersOf<9>(image, "CameraMatrix") : std::nullopt;
   const auto pose = image ? numbersOf<16>(image, "CameraPose") : std::nullopt;

@@ -179,7 +179,7 @@ def depths_seen(depths, camera, scale):
         values[numpy.asarray(depths) == numpy.iinfo(depths.dtype).max] = numpy.nan  # as cameras write what they did not measure
     if isinstance(camera, (str, os.PathLike)):
         path = path_of(camera)
-        return _core.scan_of_depths(values, _core.load_camera(path), scale * _core.load_depth_scale(path))
+        return _core.scan_of_depths(values, _core.load_depth_camera(path), scale * _core.load_depth_scale(path))
     matrix = numpy.asarray(camera)
     if matrix.shape != (3, 3) or matrix.dtype.kind not in "fiu":
         raise Error(f"the camera of a depth image has to be a calibration file or a matrix of 3 x 3, not {camera!r}")

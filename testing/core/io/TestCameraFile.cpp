@@ -5,6 +5,7 @@
 namespace
 {
 const files::Reader readCamera{ meam::readCamera };
+const files::Reader readImageCamera{ meam::readImageCamera };
 
 const std::string yaml = R"(%YAML:1.0
 ---
@@ -122,10 +123,13 @@ TEST(CameraFile, placesBesideTheSensor)
     EXPECT_TRUE(placeOf(same).matrix().isIdentity()) << same;
   }
   readCamera.fails(with(R"("rvec": [0, 0, 1])"), "rvec and tvec");
-  readCamera.fails(
+  readImageCamera.fails(
     with(R"("extrinsic": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0.05, 0, 0, 1])"), "place as extrinsic, but");
-  readCamera.fails(with(R"("translation": [50, 0, 0], "rotation": [0, 0, 0.1, 0.995])"), "place as rotation, but");
-  readCamera.fails(with(R"("R": [1, 0, 0, 0, 1, 0, 0, 0, 1], "T": [0.05, 0, 0])"), "0.05 mm from the scan's");
+  readImageCamera.fails(with(R"("translation": [50, 0, 0], "rotation": [0, 0, 0.1, 0.995])"), "place as rotation, but");
+  const std::string ofDepth = with(R"("extrinsic": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0.05, 0, 0, 1])");
+  EXPECT_TRUE(readCamera(ofDepth).camera.T_camera_scene.matrix().isIdentity()) << "where a sensor is does not matter";
+  EXPECT_TRUE(readImageCamera(bop).T_camera_scene.matrix().isIdentity());
+  readImageCamera.fails(with(R"("R": [1, 0, 0, 0, 1, 0, 0, 0, 1], "T": [0.05, 0, 0])"), "0.05 mm from the scan's");
 }
 
 TEST(CameraFile, lensesOfROS)
