@@ -447,7 +447,32 @@ int cornersOf(const Element& face)
   return -1;
 }
 
-/// The faces of an element, cut into triangles; `isLast`: no other element follows.
+bool isStrips(const Element& element) { return element.name == "tristrips"; }
+bool isFaces(const Element& element) { return element.name == "face" || isStrips(element); }
+
+/// Triangles of each three points that follow each other, every second one turned round; -1 ends a strip.
+void addStrips(const std::vector<int>& points, TriangleMesh& mesh)
+{
+  std::size_t first = 0;
+  for (std::size_t k = 0; k < points.size(); ++k)
+  {
+    if (points[k] < 0)
+    {
+      first = k + 1;
+    }
+    else if (k >= first + 2)
+    {
+      const std::size_t turned = (k - first) % 2;
+      const Eigen::Vector3i corners(points[k - 2], points[k - 1 + turned], points[k - turned]);
+      if (corners[0] != corners[1] && corners[1] != corners[2] && corners[2] != corners[0]) // else it goes on elsewhere
+      {
+        mesh.triangles.push_back(corners);
+      }
+    }
+  }
+}
+
+/// The faces of an element, or its strips of triangles, cut into triangles; `isLast`: no other element follows.
 void takeFaces(const std::string& path, Values& values, const Element& face, bool isLast, const Progress& progress,
   TriangleMesh& mesh)
 {
@@ -467,7 +492,8 @@ void takeFaces(const std::string& path, Values& values, const Element& face, boo
   {
     if (static_cast<int>(k) == list)
     {
-      if (!(value >= 0.0 && value < static_cast<double>(mesh.vertices.size())))
+      const bool isEnd = isStrips(face) && value == -1.0;
+      if (!isEnd && !(value >= 0.0 && value < static_cast<double>(mesh.vertices.size())))
       {
         failPLY(path, "has a face with a point that does not exist");
       }
@@ -477,7 +503,7 @@ void takeFaces(const std::string& path, Values& values, const Element& face, boo
   const auto take = [&](std::uint64_t i, const std::vector<double>&)
   {
     reportRecord(progress, i, face);
-    addPolygon(corners, mesh);
+    isStrips(face) ? addStrips(corners, mesh) : addPolygon(corners, mesh);
     corners.clear();
     if (isLineEach)
     {
@@ -507,7 +533,7 @@ TriangleMesh readPLYMesh(const std::string& path, const Progress& progress)
           mesh.vertices.push_back(vectorOf(record, layout.point));
         });
     }
-    else if (element.name == "face" && mesh.triangles.empty())
+    else if (isFaces(element) && mesh.triangles.empty())
     {
       takeFaces(path, values, element, &element == &header.elements.back(), subProgress(progress, 0.5, 1.0), mesh);
     }
@@ -567,7 +593,7 @@ bool isPLYCloud(const std::string& path)
     const Element* vertex = verticesOf(header);
     return vertex && vertex->count > 0 &&
            std::none_of(header.elements.begin(), header.elements.end(),
-             [](const Element& element) { return element.name == "face" && element.count > 0; });
+             [](const Element& element) { return isFaces(element) && element.count > 0; });
   }
   catch (const Error&)
   {

@@ -15,8 +15,8 @@ namespace meam
 /// the file and what is wrong with it; allocates no more than the length of the file justifies.
 MeasuredCloud readPLYCloud(const std::string& path, const Progress& progress = {});
 
-/// Reads the faces of a PLY file, after its points, in the file's own unit; polygons are cut into triangles. No
-/// triangles when there are none. Throws as above.
+/// Reads the faces of a PLY file, after its points, in the file's own unit; polygons and strips of triangles are
+/// cut into triangles. No triangles when there are none. Throws as above.
 TriangleMesh readPLYMesh(const std::string& path, const Progress& progress = {});
 
 /// Whether the file's header is that of a PLY file with points and no faces; false for one that cannot be read.

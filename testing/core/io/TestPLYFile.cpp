@@ -129,6 +129,25 @@ TEST(PLYFile, cloudsAndMeshes)
   EXPECT_FALSE(meam::isPLYCloud(folder.path("none")));
 }
 
+TEST(PLYFile, stripsOfTriangles)
+{
+  const files::Reader readMesh{ [](const std::string& path) { return meam::readPLYMesh(path); }, "mesh.ply" };
+  const auto withStrip = [](const std::string& points)
+  {
+    return head(
+             "ascii", "element vertex 5\n" + floats + "element tristrips 1\nproperty list int int vertex_indices\n") +
+           "0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 2 0\n" + points + "\n";
+  };
+  // Of 2 2 on the strip goes on without a triangle; every second one is turned round, so that all face one way.
+  const meam::TriangleMesh mesh = readMesh(withStrip("10 0 1 2 3 -1 2 3 4 4 -1"));
+  const std::vector<Eigen::Vector3i> triangles{ { 0, 1, 2 }, { 1, 3, 2 }, { 2, 3, 4 } };
+  EXPECT_EQ(mesh.triangles, triangles);
+  readMesh.fails(withStrip("4 0 1 2 5"), "a point that does not exist");
+  readMesh.fails(withStrip("4 0 1 2 -2"), "a point that does not exist");
+  const files::Folder folder;
+  EXPECT_FALSE(meam::isPLYCloud(folder.write("strips", withStrip("3 0 1 2"))));
+}
+
 TEST(PLYFile, linesThatOtherProgramsWrite)
 {
   // Blender 2.4 has no word comment before its name, MeshLab colors of three corners where its header has one.
