@@ -22,8 +22,8 @@ constexpr double OnPart = 0.02;          // of the diameter: surface so near to 
 constexpr double OnPartNoises = 2.0;     // or so near in standard deviations of the scan's noise
 constexpr double LeastFacing = 0.35;     // cosine towards the sensor: flatter surface is measured badly
 constexpr int PointsOfPatch = 2;         // and no fewer show it on a copy
-constexpr int CopiesOfPatch = 4;         // show it: fewer may be wrong at the same place,
-constexpr double ShareOfCopies = 0.25;   // and fewer of all of them lie in one way
+constexpr double CopiesOfPatch = 4.0;    // show it: fewer may be wrong at the same place,
+constexpr double ShareOfCopies = 0.25;   // and of all of them what is beside it: anything may lie beside fewer
 constexpr double MostOfCopies = 0.5;     // of them, on which a patch differs
 constexpr std::size_t MostTurns = 2;     // under which a part looks the same: more would find one for any difference
 constexpr int PatchesOfRing = 2;         // at least, and what chance makes does not go around a part
@@ -223,7 +223,7 @@ std::vector<PatchesOfCopy> turnedAlike(const TurnsOfCopies& copies)
 
 /// Patches of a kind that differ on most of the copies that show them, so many at least, beyond chance.
 int differentOnMost(
-  const std::vector<PatchesOfCopy>& ofCopies, std::size_t kind, std::size_t least, const std::vector<char>& isRing)
+  const std::vector<PatchesOfCopy>& ofCopies, std::size_t kind, double least, const std::vector<char>& isRing)
 {
   struct Copies
   {
@@ -242,12 +242,11 @@ int differentOnMost(
       }
     }
   }
-  const double all = static_cast<double>(ofCopies.size());
   int told = 0, different = 0;
   for (std::size_t k = 0; k < patches.size(); ++k)
   {
     const Copies& copies = patches[k];
-    const bool isTold = copies.showing >= std::max<double>(least, ShareOfCopies * all);
+    const bool isTold = copies.showing >= least;
     told += isTold;
     if (isTold && copies.different > MostOfCopies * copies.showing)
     {
@@ -283,11 +282,12 @@ CommonDifferences commonDifferences(
   const auto asFound =
     mapped<PatchesOfCopy>(ofCopies, [](const std::vector<PatchesOfCopy>& turns) { return turns.front(); });
   const std::vector<PatchesOfCopy> alike = turnedAlike(ofCopies);
-  const auto different = [&](std::size_t kind)
+  const auto different = [&](std::size_t kind, double least)
   {
-    return std::max(differentOnMost(asFound, kind, CopiesOfPatch, copies.isRing()),
-      differentOnMost(alike, kind, CopiesOfPatch * turns.size(), copies.isRing()));
+    return std::max(differentOnMost(asFound, kind, least, copies.isRing()),
+      differentOnMost(alike, kind, least * static_cast<double>(turns.size()), copies.isRing()));
   };
-  return { different(0), different(1) + different(2) };
+  const double besideLeast = std::max(CopiesOfPatch, ShareOfCopies * static_cast<double>(poses.size()));
+  return { different(0, CopiesOfPatch), different(1, besideLeast) + different(2, besideLeast) };
 }
 }
