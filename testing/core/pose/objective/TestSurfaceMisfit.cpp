@@ -83,9 +83,4 @@ TEST(ScanUnevenness, OfWavesItIsTheirRootMeanSquareAndNoiseAveragesOut)
   const auto half = [&](float x, float y) { return x < 60.0f ? 0.0f : 20.0f * waves(x, y); };
   EXPECT_LT(meam::scanUnevenness(surfaceOf(half), up, 5.0), 1e-4);
   EXPECT_EQ(meam::scanUnevenness({}, up, 5.0), 0.0);
-  // Two layers, as where a part lies on another, have twice as many points: the others are whole, too.
-  meam::Points layers = surfaceOf([](float x, float) { return x < 30.0f ? 20.0f : 0.0f; });
-  const meam::Points below = parts::lattice({ 0, 0 }, { 29, 119 }, 1.0f, [](float, float) { return 0.0f; });
-  layers.insert(layers.end(), below.begin(), below.end());
-  EXPECT_LT(meam::scanUnevenness(layers, up, 5.0), 1e-4);
 }
