@@ -46,8 +46,13 @@ struct PatchPoints
 
 using Patches = std::vector<PatchPoints>; ///< by their numbers
 
-/// Of the part, beside it and before its rings.
-using PatchesOfCopy = std::array<Patches, 3>;
+/// What a copy shows.
+struct PatchesOfCopy
+{
+  Patches ofPart, beside, before; ///< the last of rings alone
+};
+
+using KindOfPatches = Patches PatchesOfCopy::*;
 
 /// Whether the sensor saw past a point in all cells about its own, too. `behind`: mm along the line of sight.
 bool isClearAbout(const Eigen::Vector3f& point, const Eigen::Vector3f& towards, float behind, const FineDepth& depth)
@@ -78,9 +83,8 @@ public:
   /// `others`: what lies beside, of lyingBeside().
   PatchesOfCopy at(const Eigen::Isometry3d& T_scene_model, const std::vector<Eigen::Isometry3f>& others) const
   {
-    PatchesOfCopy patches;
-    patches.fill(Patches(this->OfPart->count));
-    auto& [ofPart, beside, before] = patches;
+    const Patches none(this->OfPart->count);
+    PatchesOfCopy patches{ none, none, none };
     const Eigen::Isometry3f T = T_scene_model.cast<float>();
     const Eigen::Vector3f towards = this->Model.visibility->towards(T_scene_model, this->InScene.sensor);
     const float onPart = std::max(static_cast<float>(OnPart * this->Model.diameter), this->Noise);
@@ -88,16 +92,17 @@ public:
     {
       const float facing = this->Model.surface.normals[i].dot(towards);
       const int patch = this->OfPart->ofSamples[i];
-      this->addPart(T * this->Model.surface.points[i], T.linear() * towards, onPart / facing, ofPart[patch]);
+      this->addPart(T * this->Model.surface.points[i], T.linear() * towards, onPart / facing, patches.ofPart[patch]);
       if (this->OfPart->isRing[patch])
       {
-        this->addBefore(T * this->Model.surface.points[i], others, onPart / facing, before[patch]);
+        this->addBefore(T * this->Model.surface.points[i], others, onPart / facing, patches.before[patch]);
       }
       if (this->Face / facing <= MostSameFace * static_cast<float>(this->Model.diameter))
       {
         for (int k = this->OfPart->begins[i]; k < this->OfPart->begins[i + 1]; ++k)
         {
-          this->addBeside(T * this->OfPart->beside[k], others, this->Face / facing, beside[this->OfPart->ofBeside[k]]);
+          this->addBeside(
+            T * this->OfPart->beside[k], others, this->Face / facing, patches.beside[this->OfPart->ofBeside[k]]);
         }
       }
     }
@@ -191,9 +196,9 @@ std::optional<double> differenceIn(const PatchPoints& points)
 std::vector<double> differencesOf(const PatchesOfCopy& patches)
 {
   std::vector<double> differences;
-  for (const Patches& kind : patches)
+  for (const KindOfPatches kind : { &PatchesOfCopy::ofPart, &PatchesOfCopy::beside, &PatchesOfCopy::before })
   {
-    for (const PatchPoints& points : kind)
+    for (const PatchPoints& points : patches.*kind)
     {
       differences.push_back(differenceIn(points).value_or(0.0));
     }
@@ -223,7 +228,7 @@ std::vector<PatchesOfCopy> turnedAlike(const TurnsOfCopies& copies)
 
 /// Patches of a kind that differ on most of the copies that show them, so many at least, beyond chance.
 int differentOnMost(
-  const std::vector<PatchesOfCopy>& ofCopies, std::size_t kind, double least, const std::vector<char>& isRing)
+  const std::vector<PatchesOfCopy>& ofCopies, KindOfPatches kind, double least, const std::vector<char>& isRing)
 {
   struct Copies
   {
@@ -235,7 +240,7 @@ int differentOnMost(
   {
     for (std::size_t k = 0; k < patches.size(); ++k)
     {
-      if (const std::optional<double> difference = differenceIn(ofCopy[kind][k]))
+      if (const std::optional<double> difference = differenceIn((ofCopy.*kind)[k]))
       {
         ++patches[k].showing;
         patches[k].different += *difference;
@@ -281,13 +286,15 @@ CommonDifferences commonDifferences(
     });
   const auto asFound =
     mapped<PatchesOfCopy>(ofCopies, [](const std::vector<PatchesOfCopy>& turns) { return turns.front(); });
-  const std::vector<PatchesOfCopy> alike = turnedAlike(ofCopies);
-  const auto different = [&](std::size_t kind, double least)
+  const std::vector<PatchesOfCopy> alike = turns.size() > 1 ? turnedAlike(ofCopies) : std::vector<PatchesOfCopy>();
+  const auto different = [&](KindOfPatches kind, double least)
   {
+    const double leastAlike = least * static_cast<double>(turns.size());
     return std::max(differentOnMost(asFound, kind, least, copies.isRing()),
-      differentOnMost(alike, kind, least * static_cast<double>(turns.size()), copies.isRing()));
+      differentOnMost(alike, kind, leastAlike, copies.isRing()));
   };
-  const double besideLeast = std::max(CopiesOfPatch, ShareOfCopies * static_cast<double>(poses.size()));
-  return { different(0, CopiesOfPatch), different(1, besideLeast) + different(2, besideLeast) };
+  const double leastBeside = std::max(CopiesOfPatch, ShareOfCopies * static_cast<double>(poses.size()));
+  return { different(&PatchesOfCopy::ofPart, CopiesOfPatch),
+    different(&PatchesOfCopy::beside, leastBeside) + different(&PatchesOfCopy::before, leastBeside) };
 }
 }

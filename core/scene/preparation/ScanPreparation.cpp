@@ -2,6 +2,7 @@
 #include "scene/preparation/ScanPreparation.h"
 
 #include "base/Error.h"
+#include "base/sequences/Quantiles.h"
 #include "scene/preparation/GridRecovery.h"
 #include "scene/preparation/ScanViewpoint.h"
 #include "scene/preparation/UnmeasuredPoints.h"
@@ -216,9 +217,7 @@ std::optional<double> medianApart(const Points& points, std::size_t places)
   {
     return std::nullopt;
   }
-  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-  std::nth_element(distances.begin(), middle, distances.end());
-  return *middle;
+  return medianOf(distances);
 }
 
 /// Points in rows of the grid's height are a grid whose columns hold neighbours, too: those of its width are none.

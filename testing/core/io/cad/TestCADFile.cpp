@@ -23,6 +23,7 @@
 #include <Interface_Static.hxx>
 #include <STEPControl_Controller.hxx>
 #include <STEPControl_Writer.hxx>
+#include <StepData_StepModel.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
@@ -51,6 +52,8 @@ std::string written(const std::string& path, const Write& write)
   return meam::runInChildProcess(work, {}).value_or("Open CASCADE crashed");
 }
 
+double mmOf(const std::string& unit) { return unit == "INCH" ? Inch : unit == "M" ? 1000.0 : 1.0; }
+
 /// A file of a shape whose lengths are mm; the lengths in the file are of the unit.
 std::string stepOf(const files::Folder& folder, const TopoDS_Shape& shape, const char* unit = "MM",
   const char* name = "part.step", STEPControl_StepModelType type = STEPControl_AsIs)
@@ -61,6 +64,8 @@ std::string stepOf(const files::Folder& folder, const TopoDS_Shape& shape, const
       STEPControl_Controller::Init();
       Interface_Static::SetCVal("write.step.unit", unit);
       STEPControl_Writer writer;
+      writer.Model()->SetLocalLengthUnit(1.0); // mm: from Open CASCADE 7.8 on it takes lengths for the file's otherwise
+      writer.Model()->SetWriteLengthUnit(mmOf(unit));
       writer.Transfer(shape, type);
       writer.Write(path);
     });
