@@ -493,7 +493,9 @@ void takeFaces(const std::string& path, Values& values, const Element& face, boo
     if (static_cast<int>(k) == list)
     {
       const bool isEnd = isStrips(face) && value == -1.0;
-      if (!isEnd && !(value >= 0.0 && value < static_cast<double>(mesh.vertices.size())))
+      const bool isPoint =
+        value >= 0.0 && value < static_cast<double>(mesh.vertices.size()) && value == std::floor(value);
+      if (!isEnd && !isPoint)
       {
         failPLY(path, "has a face with a point that does not exist");
       }

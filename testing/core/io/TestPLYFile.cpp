@@ -144,6 +144,7 @@ TEST(PLYFile, stripsOfTriangles)
   EXPECT_EQ(mesh.triangles, triangles);
   readMesh.fails(withStrip("4 0 1 2 5"), "a point that does not exist");
   readMesh.fails(withStrip("4 0 1 2 -2"), "a point that does not exist");
+  readMesh.fails(withStrip("4 0 1 2 3.5"), "a point that does not exist");
   const files::Folder folder;
   EXPECT_FALSE(meam::isPLYCloud(folder.write("strips", withStrip("3 0 1 2"))));
 }
