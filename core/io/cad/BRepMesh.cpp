@@ -516,12 +516,20 @@ TriangleMesh meshOf(const std::string& path, const TopoDS_Shape& shape)
   return result.mesh;
 }
 
+/// What is a part of its own: the solids, and of a file without them, as IGES mostly is, the closed shells.
 std::vector<TopoDS_Shape> solidsIn(const TopoDS_Shape& shape)
 {
   std::vector<TopoDS_Shape> solids;
   for (TopExp_Explorer solid(shape, TopAbs_SOLID); solid.More(); solid.Next())
   {
     solids.push_back(solid.Current());
+  }
+  for (TopExp_Explorer shell(shape, TopAbs_SHELL, TopAbs_SOLID); shell.More(); shell.Next())
+  {
+    if (BRep_Tool::IsClosed(shell.Current()))
+    {
+      solids.push_back(shell.Current());
+    }
   }
   return solids;
 }
@@ -537,7 +545,7 @@ TopoDS_Shape chosenSolid(const std::string& path, const TopoDS_Shape& shape, int
   const int count = static_cast<int>(solids.size());
   if (count == 0)
   {
-    failBRep(path, "holds surfaces and no solid: choose solid 0, all of it");
+    failBRep(path, "holds surfaces that enclose no solid: choose solid 0, all of it");
   }
   if (solid > count)
   {
@@ -569,7 +577,7 @@ BRepMesh meshOfBRep(const std::string& path, int solid)
   {
     const std::string extension = extensionOf(path);
     const bool isIGES = extension == ".iges" || extension == ".igs";
-    const TopoDS_Shape shape = sewn(chosenSolid(path, isIGES ? readIGES(path) : readSTEP(path), solid));
+    const TopoDS_Shape shape = chosenSolid(path, sewn(isIGES ? readIGES(path) : readSTEP(path)), solid);
     BRepMesh part{ meshOf(path, shape), {} };
     part.solidSizes = sizesOf(solidsIn(shape));
     return part;

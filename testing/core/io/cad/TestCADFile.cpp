@@ -109,6 +109,20 @@ TopoDS_Compound compoundOf(const TopoDS_Shape& one, const TopoDS_Shape& other)
   return both;
 }
 
+/// A box of 10 x 20 x 30 mm without one of its faces.
+TopoDS_Shell openBox()
+{
+  TopoDS_Shell shell;
+  BRep_Builder builder;
+  builder.MakeShell(shell);
+  TopExp_Explorer face(box(10, 20, 30), TopAbs_FACE);
+  for (face.Next(); face.More(); face.Next())
+  {
+    builder.Add(shell, face.Current());
+  }
+  return shell;
+}
+
 TopoDS_Shape rod() { return BRepPrimAPI_MakeCylinder(10, 30).Shape(); }
 constexpr double RodVolume = M_PI * 1e2 * 30;
 
@@ -214,24 +228,30 @@ TEST(CADFile, oneSolidIsChosen)
   { return files::errorOf([&] { meam::readCAD(file, { solid }); }); };
   EXPECT_TRUE(files::contains(error(path, 3), "holds 2 solids, no solid 3: choose one from 1 to 2")) << error(path, 3);
   EXPECT_TRUE(files::contains(error(path, -1), "0 (all) or more, not -1"));
-  EXPECT_TRUE(files::contains(error(igesOf(folder, box(1, 2, 3), "MM"), 1), "no solid: choose solid 0"));
+  EXPECT_TRUE(files::contains(error(igesOf(folder, openBox(), "MM"), 1), "enclose no solid: choose solid 0"));
   const std::string mesh = folder.write("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
   EXPECT_TRUE(files::contains(error(mesh, 1), "is a mesh, which has no solids"));
+}
+
+TEST(CADFile, shellsThatCloseAreSolids)
+{
+  const files::Folder folder;
+  gp_Trsf place;
+  place.SetTranslation(gp_Vec(100, 0, 0));
+  const std::string path = igesOf(folder, compoundOf(box(10, 20, 30), box(5, 6, 7).Moved(place)), "MM"); // faces alone
+  const std::string report = meam::readCAD(path).report;
+  EXPECT_TRUE(files::contains(report, "1 is 10 x 20 x 30 mm, 2 is 5 x 6 x 7 mm.")) << report;
+  const meam::CADPart first = meam::readCAD(path, { 1 }), second = meam::readCAD(path, { 2 });
+  expectSizes(first.mesh, 10, 20, 30);
+  EXPECT_EQ(first.report, "");
+  expectSizes(second.mesh, 5, 6, 7);
 }
 
 TEST(CADFile, openShellsAreRead)
 {
   const files::Folder folder;
-  TopoDS_Shell shell;
-  BRep_Builder builder;
-  builder.MakeShell(shell);
-  TopExp_Explorer face(box(10, 20, 30), TopAbs_FACE);
-  for (face.Next(); face.More(); face.Next()) // all but one
-  {
-    builder.Add(shell, face.Current());
-  }
   const meam::CADPart part =
-    meam::readCAD(stepOf(folder, shell, "MM", "part.step", STEPControl_ShellBasedSurfaceModel));
+    meam::readCAD(stepOf(folder, openBox(), "MM", "part.step", STEPControl_ShellBasedSurfaceModel));
   expectSizes(part.mesh, 10, 20, 30);
   EXPECT_EQ(part.mesh.triangles.size(), 10u);
   EXPECT_EQ(part.mesh.vertices.size(), 8u);
