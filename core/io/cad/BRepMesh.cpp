@@ -292,7 +292,11 @@ TopoDS_Shape sewn(const TopoDS_Shape& shape)
   TopoDS_Compound result;
   BRep_Builder builder;
   builder.MakeCompound(result);
-  for (TopExp_Explorer shell(shape, TopAbs_SHELL); shell.More(); shell.Next())
+  for (TopExp_Explorer solid(shape, TopAbs_SOLID); solid.More(); solid.Next())
+  {
+    builder.Add(result, solid.Current());
+  }
+  for (TopExp_Explorer shell(shape, TopAbs_SHELL, TopAbs_SOLID); shell.More(); shell.Next())
   {
     builder.Add(result, shell.Current());
   }
@@ -516,7 +520,8 @@ TriangleMesh meshOf(const std::string& path, const TopoDS_Shape& shape)
   return result.mesh;
 }
 
-/// What is a part of its own: the solids, and of a file without them, as IGES mostly is, the closed shells.
+/// What may be a part of its own: solids, and after them shells of none that are closed, as faces of IGES are once
+/// sewn.
 std::vector<TopoDS_Shape> solidsIn(const TopoDS_Shape& shape)
 {
   std::vector<TopoDS_Shape> solids;

@@ -29,6 +29,7 @@
 #include <TopoDS.hxx>
 #include <TopoDS_Compound.hxx>
 #include <TopoDS_Shell.hxx>
+#include <TopoDS_Solid.hxx>
 #include <gp_Pln.hxx>
 #include <gp_Trsf.hxx>
 
@@ -71,13 +72,14 @@ std::string stepOf(const files::Folder& folder, const TopoDS_Shape& shape, const
     });
 }
 
-std::string igesOf(const files::Folder& folder, const TopoDS_Shape& shape, const char* unit)
+/// `mode`: 0, faces without their neighbours, or 1, solids.
+std::string igesOf(const files::Folder& folder, const TopoDS_Shape& shape, const char* unit, int mode = 0)
 {
   return written(folder.path("part.IGS"),
     [&](const char* path)
     {
       IGESControl_Controller::Init();
-      IGESControl_Writer writer(unit, 0); // faces without their neighbours
+      IGESControl_Writer writer(unit, mode);
       writer.AddShape(shape);
       writer.ComputeModel();
       writer.Write(path);
@@ -245,6 +247,27 @@ TEST(CADFile, shellsThatCloseAreSolids)
   expectSizes(first.mesh, 10, 20, 30);
   EXPECT_EQ(first.report, "");
   expectSizes(second.mesh, 5, 6, 7);
+}
+
+TEST(CADFile, aFaceBesideSolidsLeavesThemWhole)
+{
+  const files::Folder folder;
+  TopoDS_Solid hollow;
+  BRep_Builder builder;
+  builder.MakeSolid(hollow);
+  builder.Add(hollow, TopExp_Explorer(box(30, 30, 30), TopAbs_SHELL).Current());
+  gp_Trsf inside;
+  inside.SetTranslation(gp_Vec(10, 10, 10));
+  builder.Add(hollow, TopExp_Explorer(box(5, 6, 7).Moved(inside), TopAbs_SHELL).Current().Reversed());
+  gp_Trsf place;
+  place.SetTranslation(gp_Vec(0, 0, 100));
+  const TopoDS_Shape face = TopExp_Explorer(box(30, 30, 1).Moved(place), TopAbs_FACE).Current();
+  const std::string path = igesOf(folder, compoundOf(hollow, face), "MM", 1);
+  const meam::TriangleMesh solid = meam::readCAD(path, { 1 }).mesh;
+  expectSizes(solid, 30, 30, 30);
+  EXPECT_NEAR(parts::volume(solid), 27000.0 - 210.0, 0.1);
+  EXPECT_TRUE(
+    files::contains(files::errorOf([&] { meam::readCAD(path, { 2 }); }), "holds 1 solid, no solid 2: choose 1"));
 }
 
 TEST(CADFile, openShellsAreRead)
