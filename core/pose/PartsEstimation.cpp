@@ -32,6 +32,7 @@ public:
     , Settings(settings)
     , Wanted(models.size(), 0)
     , Sure(models.size(), 0)
+    , Telling(models.size())
     , Found(models.size())
   {
     for (const TrainedModel* model : models)
@@ -155,20 +156,21 @@ private:
       selection.sureCopies = this->Wanted[part];
       selection.maximumPoses = this->Wanted[part] > 0 ? selection.maximumPoses : 0;
       selection.deadline = this->Settings.deadline.after(shareOf(1, count - k));
-      this->Found[part] =
-        this->Types[part]->select(selection, subProgress(progress, shareOf(k, count + 1), shareOf(k + 1, count + 1)));
+      this->Telling[part] =
+        this->Types[part]->finish(selection, subProgress(progress, shareOf(k, count + 1), shareOf(k + 1, count + 1)));
+    }
+    ConflictResolutionSettings conflicts;
+    conflicts.threads = this->Settings.selection.threads;
+    const std::vector<std::vector<bool>> onOthers = onOtherParts(this->detectionsOf(this->Telling), conflicts);
+    for (const int part : parts)
+    {
+      this->Found[part] = this->Types[part]->ranked(onOthers[part]);
       this->Sure[part] = this->sureOf(part);
     }
     this->Told.isCutShort = this->Told.isCutShort || this->Settings.deadline.hasStruck();
     Stopwatch watch;
-    const auto detections = ofIndices<PartDetections>(this->Models.size(),
-      [&](int part) {
-        return PartDetections{ *this->Scenes[part], *this->Models[part], this->Found[part] };
-      });
-    ConflictResolutionSettings conflicts;
-    conflicts.threads = this->Settings.selection.threads;
-    std::vector<PartPose> stay =
-      resolveConflicts(detections, conflicts, subProgress(progress, shareOf(count, count + 1), 1.0));
+    std::vector<PartPose> stay = resolveConflicts(
+      this->detectionsOf(this->Found), conflicts, subProgress(progress, shareOf(count, count + 1), 1.0));
     eraseIf(stay, [this](const PartPose& one) { return !this->isWanted(one); });
     const int asked = this->Told.maximumPoses = this->Settings.selection.maximumPoses;
     stay.resize(asked > 0 ? std::min<std::size_t>(stay.size(), asked) : stay.size());
@@ -181,12 +183,21 @@ private:
     return stay;
   }
 
+  std::vector<PartDetections> detectionsOf(const std::vector<Poses>& poses) const
+  {
+    return ofIndices<PartDetections>(this->Models.size(),
+      [&](int part) {
+        return PartDetections{ *this->Scenes[part], *this->Models[part], poses[part] };
+      });
+  }
+
   const std::vector<const TrainedModel*>& Models;
   const DetectionSettings& Settings;
   std::vector<std::unique_ptr<const Scene>> Scenes;
   std::vector<std::unique_ptr<PoseSearch>> Types;
-  std::vector<int> Wanted; ///< copies of each type that are to be sure
-  std::vector<int> Sure;   ///< that are
+  std::vector<int> Wanted;    ///< copies of each type that are to be sure
+  std::vector<int> Sure;      ///< that are
+  std::vector<Poses> Telling; ///< of each type, by themselves
   std::vector<Poses> Found;
   DetectionReport Told;
 };

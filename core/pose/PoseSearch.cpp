@@ -158,7 +158,7 @@ int PoseSearch::places(double leastLogOdds) const
   return static_cast<int>(found.size());
 }
 
-Poses PoseSearch::select(PoseSelectionSettings selection, const Progress& progress)
+Poses PoseSearch::finish(PoseSelectionSettings selection, const Progress& progress)
 {
   this->returned(PoseStage::Verification, this->Verified);
   selection.evidence.rates = this->Rates;
@@ -168,7 +168,23 @@ Poses PoseSearch::select(PoseSelectionSettings selection, const Progress& progre
   }
   Stopwatch watch;
   this->Told.work.selected += static_cast<int>(this->Verified.size());
-  const Poses poses = selectPoses(this->Verified, this->InScene, this->Model, selection, progress);
+  this->Selection = selection;
+  this->Instances.reset();
+  Poses telling;
+  if (selection.method == SelectionMethod::Instances)
+  {
+    this->Instances.emplace(this->Verified, this->InScene, this->Model, selection, progress);
+    telling = this->Instances->telling();
+  }
+  this->Told.times.selection += watch.lap();
+  return telling;
+}
+
+Poses PoseSearch::ranked(const std::vector<bool>& onOthers)
+{
+  Stopwatch watch;
+  const Poses poses = this->Instances ? withinLimits(this->Instances->poses(onOthers), this->Selection)
+                                      : selectPoses(this->Verified, this->InScene, this->Model, this->Selection);
   this->returned(PoseStage::Selection, poses);
   this->Told.times.selection += watch.lap();
   if (this->Observer)
@@ -178,6 +194,14 @@ Poses PoseSearch::select(PoseSelectionSettings selection, const Progress& progre
       this->Observer(stage, all);
     }
   }
+  return poses;
+}
+
+Poses PoseSearch::select(const PoseSelectionSettings& selection, const Progress& progress)
+{
+  this->finish(selection, progress);
+  Poses poses = this->ranked();
+  report(progress, 1.0);
   return poses;
 }
 

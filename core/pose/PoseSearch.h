@@ -3,6 +3,7 @@
 
 #include "pose/MEAMPoseEstimation.h"
 #include "pose/PoseMemory.h"
+#include "pose/selection/InstanceSelection.h"
 #include "pose/verification/PoseVerification.h"
 
 #include <functional>
@@ -33,9 +34,13 @@ public:
   /// Whether its middle lies in the region that is searched.
   bool isWanted(const Pose& pose) const;
 
-  /// Ranked poses, one of each instance, by the scan's own rates, with those outside of the region that compete with
-  /// the others.
-  Poses select(PoseSelectionSettings selection, const Progress& progress = {});
+  /// Takes one pose of each instance to where it lies, by the scan's own rates. Those that tell what the scan holds.
+  Poses finish(PoseSelectionSettings selection, const Progress& progress = {});
+  /// Of these ranked poses, with those outside of the region that compete with the others. `onOthers`: which of the
+  /// telling ones are on copies of other types; empty: none.
+  Poses ranked(const std::vector<bool>& onOthers = {});
+  /// Both.
+  Poses select(const PoseSelectionSettings& selection, const Progress& progress = {});
   /// Without those.
   Poses selectWanted(const PoseSelectionSettings& selection, const Progress& progress = {});
 
@@ -57,6 +62,8 @@ private:
   EvidenceMemory OfRefined;
   std::optional<EvidenceRates> Rates; ///< of the scan, by the candidates
   Poses Verified;
+  PoseSelectionSettings Selection;
+  std::optional<InstanceSelection> Instances;
   std::map<PoseStage, Poses> Returned; ///< in the order of the stages
 };
 

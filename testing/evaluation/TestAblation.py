@@ -12,7 +12,7 @@ import numpy
 from ppfmeam import filters, scripting
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-SWITCHES = ("none", "screening", "ascent", "edges", "near")
+SWITCHES = ("none", "screening", "alignment", "edges", "near")
 
 
 def check(right, words):

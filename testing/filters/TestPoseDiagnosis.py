@@ -178,7 +178,9 @@ diagnosis.SetRankOfPose(1)
 diagnosis.SetInputDataObject(4, vtkPolyData())
 fails(diagnosis, "no pose 1")
 
-# What no lot of candidates that was refined has come to: the last of all that may be.
+# What no lot of candidates that was refined has come to: the last of all that may be, in a full bin.
+source = connect(vtkMEAMBinSceneSource(), plate(), Copies=30, Width=640, Height=480)
+scan = run(source)
 may_be = run(Detection(scripting.train(mesh), run(connect(vtkMEAMSceneEdgeExtraction(), scan)), scan).alternatives)
 check(may_be.GetNumberOfPoints() > 160, f"two lots and more: {may_be.GetNumberOfPoints()}")
 diagnosis = connect(vtkMEAMPoseDiagnosis(), mesh, scan, None, None, poses(*tuples(may_be, "Transform")), MaximumNumberOfPoses=0)

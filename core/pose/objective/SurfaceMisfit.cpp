@@ -28,8 +28,10 @@ constexpr double OfPose = 4e-4;                 // and of the diameter, for pose
 
 constexpr double Uneven = 0.01; // of the diameter: a scan that is so uneven excuses half
 
-constexpr double Block = 3.0;          // patches, the side of a block
-constexpr double Filled = 0.6;         // of the points of the fullest block, or patch: others are cut off
+constexpr double Block = 3.0;       // patches, the side of a block
+constexpr double Filled = 0.6;      // of the points of the fullest patch: others are cut off,
+constexpr double FilledBlock = 0.8; // and blocks with fewer than so much of
+constexpr double FullBlocks = 0.25; // what these of all have: the fullest have two layers, of parts that lie on others
 constexpr double FlattestBlocks = 0.1; // of the blocks, and not the single flattest one
 
 double meanSquareOffPlane(const Points& points, double patch)
@@ -79,17 +81,20 @@ double scanUnevenness(const Points& surface, const Eigen::Vector3d& towards, dou
   const Eigen::Vector3f y = towards.cast<float>().cross(x);
   const float side = static_cast<float>(Block * patch);
   std::map<std::pair<int, int>, Points> blocks;
-  std::size_t fullest = 0;
   for (const Eigen::Vector3f& point : surface)
   {
-    Points& block = blocks[{ std::floor(point.dot(x) / side), std::floor(point.dot(y) / side) }];
-    block.push_back(point);
-    fullest = std::max(fullest, block.size());
+    blocks[{ std::floor(point.dot(x) / side), std::floor(point.dot(y) / side) }].push_back(point);
   }
+  std::vector<double> sizes;
+  for (const auto& [place, points] : blocks)
+  {
+    sizes.push_back(static_cast<double>(points.size()));
+  }
+  const double full = FilledBlock * quantileOf(sizes, 1.0 - FullBlocks);
   std::vector<double> squares;
   for (const auto& [place, points] : blocks)
   {
-    if (static_cast<double>(points.size()) >= Filled * static_cast<double>(fullest))
+    if (static_cast<double>(points.size()) >= full)
     {
       squares.push_back(meanSquareOffPlane(points, patch));
     }

@@ -17,6 +17,7 @@ namespace
 {
 constexpr double Resolved = 0.01;     // of the diameter, what the distance to a part's surface is known to
 constexpr double MostProbable = 0.99; // no pose is surer: 99 to 1
+constexpr double MuchMore = 4.0;      // times the support: what lies there is that part, and not one that looks alike
 constexpr double LeastByRates = 0.5;  // the usual rates lower no pose below this
 
 /// What a pose claims of the scene.
@@ -77,9 +78,9 @@ const PartDetections& smallest(const std::vector<PartDetections>& parts)
   }
   return *least;
 }
-}
 
-std::vector<PartPose> resolveConflicts(
+/// Of all poses, type after type.
+std::vector<Claim> claimsOf(
   const std::vector<PartDetections>& parts, const ConflictResolutionSettings& settings, const Progress& progress)
 {
   requireWithin("share of the surface that is claimed twice", settings.shared, 0.0, 1.0);
@@ -103,14 +104,46 @@ std::vector<PartPose> resolveConflicts(
       const double tolerance = std::max(UnexplainedDistance * finest.model.diameter, Resolved * part.model.diameter);
       claims[i] = claimOf(claims[i].pose, part, finest.scene, tolerance);
     });
-  std::stable_sort(claims.begin(), claims.end(), betterSupported);
-  const auto areInConflict = [&](int a, int b)
+  return claims;
+}
+
+bool areInConflict(const Claim& a, const Claim& b, double shared)
+{
+  return sharedPoints(a.points, b.points) > shared * std::min(a.points.size(), b.points.size());
+}
+}
+
+std::vector<std::vector<bool>> onOtherParts(
+  const std::vector<PartDetections>& parts, const ConflictResolutionSettings& settings, const Progress& progress)
+{
+  std::vector<std::vector<bool>> result;
+  for (const PartDetections& part : parts)
   {
-    const ExplainedPoints &ofA = claims[a].points, &ofB = claims[b].points;
-    return sharedPoints(ofA, ofB) > settings.shared * std::min(ofA.size(), ofB.size());
-  };
+    result.emplace_back(part.poses.size(), false);
+  }
+  const std::vector<Claim> claims = claimsOf(parts, settings, progress);
+  for (const Claim& one : claims)
+  {
+    result[one.pose.part][one.pose.index] = std::any_of(claims.begin(), claims.end(),
+      [&](const Claim& other)
+      {
+        return other.pose.part != one.pose.part && other.support > MuchMore * one.support &&
+               areInConflict(one, other, settings.shared);
+      });
+  }
+  return result;
+}
+
+std::vector<PartPose> resolveConflicts(
+  const std::vector<PartDetections>& parts, const ConflictResolutionSettings& settings, const Progress& progress)
+{
+  std::vector<Claim> claims = claimsOf(parts, settings, progress);
+  std::stable_sort(claims.begin(), claims.end(), betterSupported);
   std::vector<PartPose> stay;
-  for (const int k : suppress(static_cast<int>(claims.size()), areInConflict, [](int, int) { return false; }))
+  for (const int k : suppress(
+         static_cast<int>(claims.size()),
+         [&](int a, int b) { return areInConflict(claims[a], claims[b], settings.shared); },
+         [](int, int) { return false; }))
   {
     stay.push_back(claims[k].pose);
   }

@@ -31,6 +31,12 @@ struct ConflictResolutionSettings
   int threads = 0;      ///< 0: one for each processor
 };
 
+/// Of the poses of each part, by what speaks for each by itself, which are on a copy of another part: a likely pose of
+/// that one claims the same measured surface and has much more support (resolveConflicts). Of parts that look alike
+/// neither has, so that what the copies have in common still tells which part they are.
+std::vector<std::vector<bool>> onOtherParts(const std::vector<PartDetections>& parts,
+  const ConflictResolutionSettings& settings = {}, const Progress& progress = {});
+
 /// Of poses that claim the same measured surface, of different parts or of one, the best supported stays; all that
 /// stay come back, best first. All parts have to be of one scene, in one local frame.
 ///

@@ -20,6 +20,11 @@ constexpr double PriorOfSame = 3.0; // log odds that it is the part: another lie
 constexpr double OfDifferentPatch = -5.0; // beyond chance
 }
 
+bool tells(const FinishedInstance& finished)
+{
+  return !finished.isLeft && !finished.isOnOther && finished.pose.placeProbability >= Likely;
+}
+
 void allowFor(FinishedInstance& finished, double certainty)
 {
   finished.logOdds = withCertainty(finished.logOdds, certainty);
@@ -31,7 +36,7 @@ Poses likelyOf(const FinishedInstances& found, std::size_t most)
   Poses likely;
   for (const FinishedInstance& finished : found)
   {
-    if (!finished.isLeft && finished.pose.placeProbability >= Likely && likely.size() < most)
+    if (tells(finished) && likely.size() < most)
     {
       likely.push_back(finished.pose);
     }
@@ -103,8 +108,7 @@ void allowForLookalikes(
     }
     pose.contradictions.continuing = continuation.unexplained(finished.beyond, beside);
     contradictions.push_back(pose.contradictions);
-    const bool counts = !finished.isLeft && pose.placeProbability >= Likely; // others are nothing at all
-    places.push_back(counts ? pose.placeProbability : 0.0);
+    places.push_back(tells(finished) ? pose.placeProbability : 0.0);
   }
   const std::vector<double> shares = sharesOfPart(contradictions, places, excused);
   for (std::size_t k = 0; k < found.size(); ++k)

@@ -13,12 +13,17 @@ namespace meam
 struct FinishedInstance
 {
   Pose pose;
-  Points beyond;       ///< measured surface that goes on beside it (SurfaceContinuation)
-  double logOdds;      ///< that a copy is there
-  bool isLeft = false; ///< as it was scored, for enough others are sure: it comes after them
+  Points beyond;          ///< measured surface that goes on beside it (SurfaceContinuation)
+  double logOdds;         ///< that a copy is there
+  bool isLeft = false;    ///< as it was scored, for enough others are sure: it comes after them
+  bool isOnOther = false; ///< on a copy of another type of part
 };
 
 using FinishedInstances = std::vector<FinishedInstance>;
+
+/// Whether it tells what the scan holds: it is likely, and on no other type's copy. What is not likely is nothing at
+/// all.
+bool tells(const FinishedInstance& finished);
 
 /// Place of a pose; of less it does not matter what contradicts it.
 inline constexpr double WorthExplaining = 0.02;
@@ -26,7 +31,7 @@ inline constexpr double WorthExplaining = 0.02;
 /// No likelier than `certainty`, that what lies there is the part.
 void allowFor(FinishedInstance& finished, double certainty);
 
-/// Of poses, best first, those that are likely, `most` at most: what a scan holds is decided by these.
+/// Of poses, best first, those that tell what the scan holds, `most` at most.
 Poses likelyOf(const FinishedInstances& found, std::size_t most);
 
 /// Those that are left at the end.

@@ -3,13 +3,8 @@
 
 #include "base/sequences/Sequences.h"
 #include "pose/PoseTolerances.h"
-#include "pose/search/InstanceSuppression.h"
 #include "pose/search/PoseClusters.h"
-#include "pose/selection/InstanceFinishing.h"
-#include "pose/selection/MirrorDecision.h"
-#include "pose/selection/SizeDecision.h"
-#include "pose/verification/PoseVerification.h"
-#include "pose/verification/ProbabilityCalibration.h"
+#include "pose/selection/InstanceSelection.h"
 
 #include <algorithm>
 #include <iterator>
@@ -21,90 +16,11 @@ namespace
 constexpr double LeastScore = 0.05;    // times that of the best: an alternative with less is not worth refining,
 constexpr int LeastRefined = 60;       // so many are, and all that are likelier than this where these are more
 constexpr double WorthRefining = 3e-7; // (probability, of poses that are not refined yet)
-constexpr std::size_t RateStride = 2;  // of the points that tell the scan's rates of edges one of so many
+}
 
 double clusterDistance(const PoseSelectionSettings& settings, const TrainedModel& model)
 {
   return settings.clusterDistance > 0.0 ? settings.clusterDistance : SamePoseDistance * model.diameter;
-}
-
-/// Of poses, best first, those that better ones leave: aligned they may have come to the same place.
-FinishedInstances withoutShared(const FinishedInstances& found, const InstanceClaims& claims)
-{
-  std::vector<InstanceClaims::Claim> ofFound;
-  std::transform(found.begin(), found.end(), std::back_inserter(ofFound),
-    [&](const FinishedInstance& finished) { return claims.of(finished.pose.T_scene_model); });
-  FinishedInstances distinct;
-  for (const int k :
-    suppress(
-      static_cast<int>(found.size()), [&](int one, int other) { return claims.areOne(ofFound[one], ofFound[other]); },
-      [](int, int) { return false; }))
-  {
-    distinct.push_back(found[k]);
-  }
-  return distinct;
-}
-
-/// One for each instance, with its final pose; best first.
-Poses selectInstances(const Poses& scored, const Scene& scene, const TrainedModel& model,
-  const PoseSelectionSettings& settings, const Progress& progress)
-{
-  const EvidenceCollector collector(scene, model, settings.evidence);
-  const PoseComparison comparison(scene, model, settings.comparison);
-  const InstanceClaims claims(scene, model, clusterDistance(settings, model));
-  std::vector<int> selected;
-  if (!isDoneBy(settings.deadline,
-        [&]
-        {
-          selected = bestOfInstances(scored, claims, comparison, settings.comparesInstances, settings.threads,
-            settings.deadline.within(subProgress(progress, 0.0, 0.3)));
-        }))
-  {
-    return selectClusters(scored, model, settings, {});
-  }
-  const EvidenceRates rates = evidenceRatesOf(scored, collector, settings.evidence, RateStride, settings.threads);
-  const LocalSearch search(scene, model, comparison, collector, rates, settings.search);
-  const InstanceFinishing finishing(scene, model, search, claims, settings);
-  FinishedInstances finished = finishing.finished(scored, selected, subProgress(progress, 0.3, 1.0));
-  sortBest(finished);
-  if (settings.dropsShared)
-  {
-    finished = withoutShared(finished, claims);
-  }
-  if (haveSurfaces(scene, model))
-  {
-    if (settings.excludesOverlaps)
-    {
-      excludeOverlaps(finished, model);
-    }
-    // Of what is likely by itself: what else the likely poses say together may make all of them unlikely.
-    const CommonDifferences differences =
-      settings.weighsDifferences ? differencesOfLikely(finished, scene, model, settings.threads) : CommonDifferences();
-    if (settings.weighsLookalikes)
-    {
-      allowForLookalikes(finished, model, finishing.continuation(), finishing.misfit().excused());
-    }
-    if (settings.weighsSize)
-    {
-      allowForOtherSize(finished, scene, model, settings.threads);
-    }
-    if (settings.weighsMirrorImage && !settings.deadline.hasStruck())
-    {
-      allowForMirrorImage(finished, scene, model, collector, settings.evidence, rates, settings.threads);
-    }
-    allowForDifferences(finished, differences, finishing.misfit().excused());
-    sortBest(finished);
-  }
-  if (model.calibration.poses > 0)
-  {
-    calibrate(finished, model.calibration);
-    sortBest(finished);
-  }
-  Poses instances;
-  std::transform(finished.begin(), finished.end(), std::back_inserter(instances),
-    [](const FinishedInstance& instance) { return instance.pose; });
-  return instances;
-}
 }
 
 Poses selectClusters(
@@ -149,7 +65,8 @@ Poses selectPoses(const Poses& scored, const Scene& scene, const TrainedModel& m
   Poses selected;
   if (settings.method == SelectionMethod::Instances)
   {
-    selected = withinLimits(selectInstances(scored, scene, model, settings, progress), settings);
+    InstanceSelection instances(scored, scene, model, settings, progress);
+    selected = withinLimits(instances.poses(), settings);
   }
   else
   {

@@ -45,6 +45,9 @@ struct PoseSelectionSettings
   Deadline deadline;  ///< then those come out that are finished, and the others as they came in
 };
 
+/// mm: poses whose middles are nearer are of one instance.
+double clusterDistance(const PoseSelectionSettings& settings, const TrainedModel& model);
+
 /// The recommended settings before refinement.
 PoseSelectionSettings candidateSelectionSettings();
 

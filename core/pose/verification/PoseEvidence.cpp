@@ -17,7 +17,8 @@ constexpr double FarBehind = 0.1;     // of the diameter: what the sensor saw so
 constexpr double CloselyBefore = 0.1; // of the diameter: a surface that hides the part from nearer is close before it
 constexpr float Flattest = 0.3f;      // cosine: the tolerance along the line of sight grows up to surfaces so flat
 constexpr float Behind = 3.0f;        // tolerances: so far behind the bin's floor or a wall a part cannot reach
-constexpr float BehindOfFlat = 0.7f;  // of the thickness of a flat part, the same
+constexpr float BehindOfFlat = 0.4f;  // of the thickness of a flat part, the same, but no less than the tolerance
+constexpr float Thinnest = 1.4f;      // tolerances: of thinner parts the floor does not tell
 constexpr double Shown = 0.25;        // of its whole surface a body shows, on average over directions (Cauchy)
 /// Sides of outline that a patch of surface has at most: those of a strip half a patch wide, as a thin sheet seen from
 /// its edge. Where the sensor sees past one side of a narrower one it sees past the other, and such strips are
@@ -88,10 +89,10 @@ double EvidenceCollector::logOdds(
 
 float EvidenceCollector::behindPlane() const
 {
-  // A flat part that lies in the floor reaches no deeper than it is thick. Of thinner ones than the tolerance the floor
-  // does not tell: what lies on it may be taken for it.
-  const float ofFlat = BehindOfFlat * this->Model.thickness, most = Behind * this->Tolerance;
-  return -(ofFlat < this->Tolerance ? most : std::min(ofFlat, most));
+  // A flat part that lies in the floor reaches no deeper than it is thick, and less where its bosses or its rim make
+  // its thickness. What lies on the floor may be taken for it where it is hardly thicker than the tolerance.
+  const float thickness = this->Model.thickness, tolerance = this->Tolerance, most = Behind * tolerance;
+  return -(thickness < Thinnest * tolerance ? most : std::clamp(BehindOfFlat * thickness, tolerance, most));
 }
 
 bool EvidenceCollector::isBehind(const Eigen::Vector3f& point) const

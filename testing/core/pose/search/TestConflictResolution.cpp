@@ -153,6 +153,30 @@ TEST(ConflictResolution, ASmallPartThatFitsInsideALargeOneLoses)
   EXPECT_EQ(typesLeft(scene, small, at(place(20, 14, 0), 0.99), large, at(place(0, 0, 0), 0.02)), Types{ 0 });
 }
 
+TEST(ConflictResolution, APoseIsOnAnotherTypesCopyWhereThatHasMuchMoreSupport)
+{
+  const meam::TrainedModel& large = trained<plate>();
+  const meam::TrainedModel& small = trained<smallBlock>();
+  const auto onOthers = [&](const Found& a, const Found& b)
+  {
+    const scenes::Seen raw = seen({ { plate(), place(0, 0, 0) } });
+    const meam::Scene sceneA = scenes::prepared(raw, a.model.diameter),
+                      sceneB = scenes::prepared(raw, b.model.diameter);
+    const Eigen::Isometry3d& T = sceneA.T_local_scene();
+    const meam::Poses posesA = meam::toLocalFrame(a.poses, T, a.model.symmetries);
+    const meam::Poses posesB = meam::toLocalFrame(b.poses, T, b.model.symmetries);
+    return meam::onOtherParts({ { sceneA, a.model, posesA }, { sceneB, b.model, posesB } });
+  };
+  using OnOthers = std::vector<std::vector<bool>>;
+  const Found block{ small, { at(place(0, 0, 0), 0.6), at(place(500, 0, 0), 0.6) } };
+  EXPECT_EQ(onOthers(block, { large, { at(place(0, 0, 0), 0.9) } }), (OnOthers{ { true, false }, { false } }));
+  EXPECT_EQ(onOthers(block, { large, {} }), (OnOthers{ { false, false }, {} }));
+  // Of its own type it is another pose; what is as well supported may be either type.
+  const meam::Pose likely = at(place(0, 0, 0), 0.9), less = at(place(2, 0, 0), 0.2);
+  EXPECT_EQ(onOthers({ large, { likely, less } }, { small, {} }), (OnOthers{ { false, false }, {} }));
+  EXPECT_EQ(onOthers({ large, { likely } }, { large, { likely } }), (OnOthers{ { false }, { false } }));
+}
+
 TEST(ConflictResolution, ASmallPartOnTopOfALargeOneStays)
 {
   const scenes::Seen scene = seen({ { plate(), place(0, 0, 0) }, { smallBlock(), place(20, 14, 10) } });

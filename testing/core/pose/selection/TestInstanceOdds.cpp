@@ -69,3 +69,27 @@ TEST(InstanceOdds, EachPatchThatDiffersTellsOfAnotherPart)
   EXPECT_LT(placeWith(2, 0, 0.0), 0.01);
   EXPECT_LT(placeWith(1, 1, 0.0), 0.01);
 }
+
+TEST(InstanceOdds, WhatLiesOnAnotherTypesCopyTellsNothingOfTheOthers)
+{
+  meam::FinishedInstances found(2);
+  for (meam::FinishedInstance& one : found)
+  {
+    one.logOdds = 3.0;
+    meam::setEvidence(one.pose, one.logOdds);
+  }
+  found[1].pose.contradictions.misfit = 100.0;
+  EXPECT_EQ(meam::likelyOf(found, 9).size(), 2u);
+  const meam::SurfaceContinuation continuation(scenes::copiesScene(), scenes::bracket());
+  const auto firstOf = [&](meam::FinishedInstances instances)
+  {
+    meam::allowForLookalikes(instances, scenes::bracket(), continuation, 0.0);
+    return instances[0].logOdds;
+  };
+  const double withOther = firstOf(found);
+  found[1].isOnOther = true;
+  EXPECT_FALSE(meam::tells(found[1]));
+  EXPECT_EQ(meam::likelyOf(found, 9).size(), 1u);
+  EXPECT_GT(firstOf(found), withOther + 0.1);
+  EXPECT_NEAR(firstOf(found), firstOf({ found[0] }), 1e-12);
+}
