@@ -8,13 +8,14 @@
 
 #include <charconv>
 #include <cmath>
+#include <set>
 
 namespace meam
 {
 namespace
 {
-constexpr int MostNested = 4;  // arrays in arrays: a matrix has two
-constexpr int MostLevels = 64; // of a file; copies and comparisons call themselves for each
+constexpr int MostNested = 4;          // arrays in arrays: a matrix has two
+constexpr std::size_t MostLevels = 64; // of a file; copies and comparisons call themselves for each
 
 void append(const nlohmann::json& value, int nested, std::vector<double>& numbers, bool& good)
 {
@@ -33,34 +34,69 @@ void append(const nlohmann::json& value, int nested, std::vector<double>& number
   }
 }
 
-/// Whether lists and objects of a JSON text stand in each other more than so many times over.
-bool isNestedDeeper(const std::string& text, int levels)
+/// What the parser lets pass, and keeps for itself: how deep lists and objects stand in each other, and keys.
+class Check : public nlohmann::json_sax<nlohmann::json>
 {
-  int open = 0;
-  bool isQuoted = false;
-  for (std::size_t at = 0; at < text.size() && open <= levels; ++at)
+public:
+  bool isNestedTooDeep = false;
+  std::string keyTwice;
+  bool hasKeyTwice = false;
+
+  bool null() override { return true; }
+  bool boolean(bool) override { return true; }
+  bool number_integer(number_integer_t) override { return true; }
+  bool number_unsigned(number_unsigned_t) override { return true; }
+  bool number_float(number_float_t, const string_t&) override { return true; }
+  bool string(string_t&) override { return true; }
+  bool binary(binary_t&) override { return true; }
+  bool start_object(std::size_t) override { return this->open(); }
+  bool start_array(std::size_t) override { return this->open(); }
+  bool end_object() override { return this->close(); }
+  bool end_array() override { return this->close(); }
+  bool key(string_t& key) override
   {
-    const char letter = text[at];
-    if (isQuoted)
-    {
-      at += letter == '\\' ? 1 : 0;
-      isQuoted = letter != '"';
-      continue;
-    }
-    isQuoted = letter == '"';
-    open += letter == '[' || letter == '{' ? 1 : letter == ']' || letter == '}' ? -1 : 0;
+    this->hasKeyTwice = !this->Keys.back().insert(key).second;
+    this->keyTwice = this->hasKeyTwice ? key : "";
+    return !this->hasKeyTwice;
   }
-  return open > levels;
+  bool parse_error(std::size_t, const std::string&, const nlohmann::json::exception&) override { return false; }
+
+private:
+  bool open()
+  {
+    this->isNestedTooDeep = this->Keys.size() == MostLevels;
+    this->Keys.emplace_back();
+    return !this->isNestedTooDeep;
+  }
+  bool close()
+  {
+    this->Keys.pop_back();
+    return true;
+  }
+
+  std::vector<std::set<std::string>> Keys; // of what is open
+};
 }
+
+void failKeyTwice(const std::string& path, const std::string& key)
+{
+  throw Error(
+    "The file '" + path + "' has the key '" + key.substr(0, 40) + "' twice in one object: leave the one that counts.");
 }
 
 nlohmann::json parseJSON(const std::string& path, const std::string& text)
 {
   // Not by the parser's callback: with one it goes, at the end of each object, through all that the list so far has.
-  if (isNestedDeeper(text, MostLevels))
+  Check check;
+  nlohmann::json::sax_parse(text, &check);
+  if (check.isNestedTooDeep)
   {
     throw Error("The file '" + path + "' has lists in lists " + std::to_string(MostLevels) +
                 " times over: it is damaged, or no file of this kind.");
+  }
+  if (check.hasKeyTwice)
+  {
+    failKeyTwice(path, check.keyTwice);
   }
   try
   {

@@ -2,6 +2,7 @@
 #include "io/parsing/YAMLFile.h"
 
 #include "base/Error.h"
+#include "io/parsing/JSONFile.h"
 #include "io/parsing/TextLines.h"
 
 #include <nlohmann/json.hpp>
@@ -67,7 +68,12 @@ private:
   {
     if (!this->Open.empty() && this->Open.back().list->is_object() && !this->Open.back().next)
     {
-      this->Open.back().next = &(*this->Open.back().list)[text];
+      const auto [place, isNew] = this->Open.back().list->emplace(text, nullptr);
+      if (!isNew)
+      {
+        failKeyTwice(this->Path, text);
+      }
+      this->Open.back().next = &*place;
       return;
     }
     this->add(mark, std::move(value));

@@ -22,6 +22,15 @@ TEST(JSONFile, whatIsNestedWithoutEndIsRefused)
   expectRefused(files::errorOf([&] { meam::readHandEye(pairs); }));
 }
 
+TEST(JSONFile, aKeyTwiceIsRefused)
+{
+  const auto errorOf = [](const std::string& text) { return files::errorOf([&] { meam::parseJSON("a.json", text); }); };
+  EXPECT_EQ(meam::parseJSON("a.json", R"([{"fx": {"fx": 1}, "fy": 2}, {"fx": 3}])").size(), 2u);
+  EXPECT_TRUE(files::contains(errorOf(R"({"fx": 1, "fy": [{"a": 1}], "fx": 2})"), "has the key 'fx' twice"));
+  EXPECT_TRUE(files::contains(errorOf(R"([{"": 1, "": 2}])"), "has the key '' twice"));
+  EXPECT_TRUE(files::contains(errorOf(R"({"fx": 1, "fy": 2)"), "is not JSON"));
+}
+
 TEST(JSONFile, bracketsInTextsAreNotNested)
 {
   const std::string brackets(100, '[');

@@ -35,6 +35,7 @@ TEST(YAMLFile, damaged)
   parseFile.fails("a: 1\nb: [ 1, 2", "line");
   parseFile.fails("a: 1\n b: 2\n", "line 2");
   parseFile.fails("a: &x 1\nb: *x\n", "has an alias in line 2, which is not read: write there what it stands for.");
+  parseFile.fails("fx: 1\nk: {fx: 2}\nfx: 3\n", "has the key 'fx' twice in one object: leave the one that counts.");
   parseFile.fails("? [1]\n: 2\n", "no name");
   parseFile.fails(std::string(100, '[') + std::string(100, ']'), "lists in lists");
   std::string nested;
