@@ -27,7 +27,7 @@ PointCloud extractFeatureEdges(const TriangleMesh& mesh, const FeatureEdgesSetti
     throw Error("The mesh has no area: all of its faces are degenerate.");
   }
   const std::vector<MeshEdge> edges = edgesOf(mesh);
-  const Points normals = faceNormals(mesh);
+  const Points normals = faceNormals(mesh, edges);
   const float flattest = static_cast<float>(std::cos(settings.angle * M_PI / 180.0));
   report(progress, 0.3);
 

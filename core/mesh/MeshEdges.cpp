@@ -6,12 +6,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace meam
 {
 namespace
 {
 constexpr double MaximumSamples = 5e6; // 140 MB
+// Of the largest coordinate: a triangle of less height is turned by the rounding of its corners to floats, 6e-8.
+constexpr double Flat = 1e-6;
 
 /// The edges at each vertex: those of vertex v are edges[starts[v]] to edges[starts[v + 1]].
 struct Incidence
@@ -75,6 +78,50 @@ void sampleChain(const std::vector<Step>& chain, double spacing, std::vector<Edg
     walked = end;
   }
 }
+
+/// Gives needles the normal of the face beside their longest edge, which may be a needle, too.
+void takeFromNeighbours(
+  const TriangleMesh& mesh, const std::vector<MeshEdge>& edges, std::map<int, int>& needles, Points& normals)
+{
+  if (needles.empty())
+  {
+    return;
+  }
+  const auto lengthOf = [&](int edge)
+  {
+    const auto [first, second] = edges[edge].vertices;
+    return (mesh.vertices[first] - mesh.vertices[second]).norm();
+  };
+  for (std::size_t e = 0; e < edges.size(); ++e)
+  {
+    for (const int face : edges[e].faces)
+    {
+      const auto needle = needles.find(face);
+      if (needle != needles.end() && (needle->second < 0 || lengthOf(static_cast<int>(e)) > lengthOf(needle->second)))
+      {
+        needle->second = static_cast<int>(e);
+      }
+    }
+  }
+  for (bool isGoingOn = true; isGoingOn;)
+  {
+    isGoingOn = false;
+    for (auto needle = needles.begin(); needle != needles.end();)
+    {
+      const auto& [face, edge] = *needle;
+      const bool isBetweenTwo = edge >= 0 && edges[edge].faceCount == 2;
+      const int beside = isBetweenTwo ? edges[edge].faces[edges[edge].faces[0] == face ? 1 : 0] : -1;
+      if (isBetweenTwo && needles.count(beside) == 0)
+      {
+        normals[face] = normals[beside];
+        needle = needles.erase(needle);
+        isGoingOn = true;
+        continue;
+      }
+      ++needle;
+    }
+  }
+}
 }
 
 std::vector<MeshEdge> edgesOf(const TriangleMesh& mesh)
@@ -114,17 +161,30 @@ std::vector<MeshEdge> edgesOf(const TriangleMesh& mesh)
   return edges;
 }
 
-Points faceNormals(const TriangleMesh& mesh)
+Points faceNormals(const TriangleMesh& mesh, const std::vector<MeshEdge>& edges)
 {
+  float largest = 0.0f;
+  for (const Eigen::Vector3f& vertex : mesh.vertices)
+  {
+    largest = std::max(largest, vertex.cwiseAbs().maxCoeff());
+  }
   Points normals;
   normals.reserve(mesh.triangles.size());
+  std::map<int, int> needles; // to the edge that is the longest, once it is known
   for (const auto& triangle : mesh.triangles)
   {
     const Eigen::Vector3d a = mesh.vertices[triangle[0]].cast<double>();
     const Eigen::Vector3d b = mesh.vertices[triangle[1]].cast<double>();
     const Eigen::Vector3d c = mesh.vertices[triangle[2]].cast<double>();
-    normals.push_back((b - a).cross(c - a).stableNormalized().cast<float>());
+    const Eigen::Vector3d area = (b - a).cross(c - a);
+    const double longest = std::max({ (b - a).norm(), (c - b).norm(), (a - c).norm() });
+    if (area.norm() <= Flat * largest * longest)
+    {
+      needles.emplace(static_cast<int>(normals.size()), -1);
+    }
+    normals.push_back(area.stableNormalized().cast<float>());
   }
+  takeFromNeighbours(mesh, edges, needles, normals);
   return normals;
 }
 

@@ -19,8 +19,10 @@ struct MeshEdge
 /// All edges of the mesh, ordered by their vertices. The mesh's indices have to be valid.
 std::vector<MeshEdge> edgesOf(const TriangleMesh& mesh);
 
-/// Unit normals of the triangles, by their winding; zero for a triangle without area.
-Points faceNormals(const TriangleMesh& mesh);
+/// Unit normals of the triangles, by their winding. A triangle so flat that rounding turns it takes that of the face
+/// beside its longest edge; the normal is zero where it has no area and nothing but such faces beside it. `edges` are
+/// those of the mesh.
+Points faceNormals(const TriangleMesh& mesh, const std::vector<MeshEdge>& edges);
 
 /// A point on an edge.
 struct EdgeSample

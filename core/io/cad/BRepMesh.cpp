@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/cad/BRepMesh.h"
 
+#include "base/Bounds.h"
 #include "base/Error.h"
 #include "io/parsing/FileBytes.h"
 #include "io/parsing/TextLines.h"
@@ -59,6 +60,10 @@ constexpr double Deflection = 2e-4;
 constexpr double Angle = 8.0 * M_PI / 180.0;
 // Of the diagonal: how far apart edges may lie of faces that come without their neighbours and are sewn.
 constexpr double SewingTolerance = 1e-4;
+
+// Of the length that the deflection was taken of: where triangles are so much shorter, poles of the surface lay far off
+// it, of which its bounds are made.
+constexpr double MuchShorter = 0.9;
 
 constexpr int EdgeChecks = 8; // parts of an edge between which it is compared with others: a bend of it is seen
 
@@ -497,7 +502,7 @@ Triangulation triangulated(const TopoDS_Shape& shape, double diagonal)
 }
 
 /// The boundaries of some faces, as where fillets of several edges meet, are triangulated once they are healed.
-TriangleMesh meshOf(const std::string& path, const TopoDS_Shape& shape)
+TriangleMesh meshOf(const std::string& path, TopoDS_Shape shape)
 {
   const double diagonal = diagonalOf(shape);
   if (!(diagonal > 0.0))
@@ -509,8 +514,15 @@ TriangleMesh meshOf(const std::string& path, const TopoDS_Shape& shape)
   {
     ShapeFix_Shape healing(shape);
     healing.Perform();
-    BRepTools::Clean(healing.Shape()); // faces that failed are not tried again otherwise
-    result = triangulated(healing.Shape(), diagonal);
+    shape = healing.Shape();
+    BRepTools::Clean(shape); // faces that failed are not tried again otherwise
+    result = triangulated(shape, diagonal);
+  }
+  const double length = bounds(result.mesh.vertices).diagonal().norm();
+  if (length < MuchShorter * diagonal)
+  {
+    BRepTools::Clean(shape);
+    result = triangulated(shape, length);
   }
   if (result.missing > 0)
   {

@@ -43,8 +43,8 @@ VisibleEdges::VisibleEdges(const TriangleMesh& mesh, double sharpAngle, double s
   , Sight(mesh)
   , Spacing(spacing)
   , EdgeOn(edgeOn)
-  , FaceNormals(faceNormals(mesh))
   , Edges(edgesOf(mesh))
+  , FaceNormals(faceNormals(mesh, Edges))
 {
   const float flattest = static_cast<float>(std::cos(sharpAngle * M_PI / 180.0));
   std::vector<std::array<int, 2>> features;

@@ -54,8 +54,8 @@ private:
   LineOfSight Sight;
   double Spacing;
   double EdgeOn;
-  Points FaceNormals;
   std::vector<MeshEdge> Edges;
+  Points FaceNormals;
   std::vector<char> IsFeature;                               ///< of each edge: sharp or a border
   std::vector<std::array<int, 3>> EdgesOfFace;               ///< from each corner to the next
   std::vector<std::array<Eigen::Vector3d, 3>> CornerNormals; ///< of the round surface that the face belongs to

@@ -140,6 +140,16 @@ TEST(FeatureEdges, smoothMeshHasNone)
   EXPECT_TRUE(extract(parts::sphere(10, 4), 1.0).empty());
 }
 
+TEST(FeatureEdges, aNeedleInAFlatFaceIsNone)
+{
+  // Corners are floats: the needle 0 1 4 stands on its edge.
+  meam::TriangleMesh sheet;
+  sheet.vertices = { { 0, 0, 0 }, { 100, 0, 0 }, { 100, 100, 0 }, { 0, 100, 0 }, { 50, 0, 1e-5f }, { 50, -50, 0 } };
+  sheet.triangles = { { 0, 4, 3 }, { 4, 1, 2 }, { 4, 2, 3 }, { 0, 1, 4 }, { 0, 5, 1 } };
+  const meam::PointCloud cloud = extract(sheet, 1.0);
+  EXPECT_EQ(std::count(cloud.edgeTypes.begin(), cloud.edgeTypes.end(), meam::EdgeType::Crease), 0);
+}
+
 TEST(FeatureEdges, badInput)
 {
   const meam::TriangleMesh box = parts::box({ 0, 0, 0 }, { 1, 1, 1 });

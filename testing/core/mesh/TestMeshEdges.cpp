@@ -27,7 +27,20 @@ TEST(MeshEdges, normals)
   meam::TriangleMesh mesh;
   mesh.vertices = { { 0, 0, 0 }, { 3, 0, 0 }, { 0, 2, 0 }, { 6, 0, 0 } };
   mesh.triangles = { { 0, 1, 2 }, { 0, 2, 1 }, { 0, 1, 3 } };
-  EXPECT_EQ(meam::faceNormals(mesh), (meam::Points{ { 0, 0, 1 }, { 0, 0, -1 }, { 0, 0, 0 } }));
+  EXPECT_EQ(meam::faceNormals(mesh, meam::edgesOf(mesh)), (meam::Points{ { 0, 0, 1 }, { 0, 0, -1 }, { 0, 0, 0 } }));
+}
+
+TEST(MeshEdges, needlesTakeTheNormalBesideTheirLongestEdge)
+{
+  // A square of 100 mm whose diagonal has two needles one upon the other: rounding has turned them by any angle.
+  meam::TriangleMesh mesh;
+  mesh.vertices = { { 0, 0, 0 }, { 100, 0, 0 }, { 100, 100, 0 }, { 0, 100, 0 }, { 40, 40, 3e-5f }, { 60, 60, -2e-5f } };
+  mesh.triangles = { { 0, 1, 2 }, { 0, 4, 3 }, { 0, 2, 5 }, { 0, 5, 4 }, { 4, 5, 3 }, { 5, 2, 3 } };
+  const meam::Points normals = meam::faceNormals(mesh, meam::edgesOf(mesh));
+  for (const auto& normal : normals)
+  {
+    EXPECT_TRUE(normal.isApprox(Eigen::Vector3f::UnitZ(), 1e-5f)) << normal.transpose();
+  }
 }
 
 TEST(MeshEdges, spacingIsMeasuredAlongTheChain)

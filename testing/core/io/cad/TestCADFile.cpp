@@ -18,12 +18,14 @@
 #include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
 #include <BRep_Builder.hxx>
+#include <Geom_BezierSurface.hxx>
 #include <IGESControl_Controller.hxx>
 #include <IGESControl_Writer.hxx>
 #include <Interface_Static.hxx>
 #include <STEPControl_Controller.hxx>
 #include <STEPControl_Writer.hxx>
 #include <StepData_StepModel.hxx>
+#include <TColgp_Array2OfPnt.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
@@ -33,6 +35,8 @@
 #include <gp_Pln.hxx>
 #include <gp_Trsf.hxx>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace
@@ -195,6 +199,34 @@ TEST(CADFile, sharpEdgesOfTheMeshAreThoseOfTheSurfaces)
   };
   EXPECT_NEAR(lengthOf(rod()), 2 * 2 * M_PI * 10, 0.5); // not its seam
   EXPECT_EQ(lengthOf(BRepPrimAPI_MakeSphere(10).Shape()), 0.0);
+}
+
+TEST(CADFile, trianglesAreNoCoarserWherePolesLieFarOffTheSurface)
+{
+  // z = 3 T6(x / 50) mm, of the Chebyshev polynomial T6: the poles reach 139 mm, the surface 3.
+  constexpr std::array<double, 7> poles{ 1, -11, 33, -46.2, 33, -11, 1 };
+  TColgp_Array2OfPnt grid(1, 7, 1, 2);
+  for (int i = 0; i < 7; ++i)
+  {
+    grid.SetValue(i + 1, 1, gp_Pnt(100.0 * i / 6 - 50, 0, 3 * poles[i]));
+    grid.SetValue(i + 1, 2, gp_Pnt(100.0 * i / 6 - 50, 20, 3 * poles[i]));
+  }
+  const files::Folder folder;
+  const TopoDS_Shape face = BRepBuilderAPI_MakeFace(new Geom_BezierSurface(grid), 1e-6).Shape();
+  const meam::TriangleMesh mesh = meam::readCAD(stepOf(folder, face)).mesh;
+  expectSizes(mesh, 100, 20, 6);
+  double farthest = 0.0; // middles of sides from the surface
+  for (const auto& triangle : mesh.triangles)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      const Eigen::Vector3f middle = (mesh.vertices[triangle[k]] + mesh.vertices[triangle[(k + 1) % 3]]) / 2;
+      const double angle = std::acos(std::clamp(middle.x() / 50.0, -1.0, 1.0)); // T6(cos a) = cos 6a
+      const double slope = 3 * 6 * std::sin(6 * angle) / std::max(std::sin(angle), 1e-3) / 50;
+      farthest = std::max(farthest, std::abs(middle.z() - 3 * std::cos(6 * angle)) / std::hypot(1.0, slope));
+    }
+  }
+  EXPECT_LE(farthest, 2e-4 * std::sqrt(100.0 * 100 + 20 * 20 + 6 * 6));
 }
 
 TEST(CADFile, allSolidsAreOnePartWhereTheyArePlaced)

@@ -124,7 +124,7 @@ TEST(MeshPreparation, flatSheetKeepsItsWinding)
   const auto [mesh, report] = meam::prepareMesh(sheet);
   EXPECT_EQ(report.flippedComponents, 0);
   EXPECT_EQ(report.borderEdges, 4);
-  EXPECT_EQ(meam::faceNormals(mesh), meam::Points(2, -Eigen::Vector3f::UnitZ()));
+  EXPECT_EQ(meam::faceNormals(mesh, meam::edgesOf(mesh)), meam::Points(2, -Eigen::Vector3f::UnitZ()));
 }
 
 TEST(MeshPreparation, duplicateAndDegenerateTrianglesAndLooseVerticesGo)

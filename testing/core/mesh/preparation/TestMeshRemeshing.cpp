@@ -9,9 +9,10 @@ namespace
 /// Total length of the edges where faces meet at more than 30 degrees.
 double sharpLength(const meam::TriangleMesh& mesh)
 {
-  const meam::Points normals = meam::faceNormals(mesh);
+  const std::vector<meam::MeshEdge> edges = meam::edgesOf(mesh);
+  const meam::Points normals = meam::faceNormals(mesh, edges);
   double sum = 0.0;
-  for (const auto& edge : meam::edgesOf(mesh))
+  for (const auto& edge : edges)
   {
     EXPECT_EQ(edge.faceCount, 2);
     if (normals[edge.faces[0]].dot(normals[edge.faces[1]]) < 0.86f)
