@@ -152,13 +152,14 @@ def grasps(cad, file=None, propose=None, scale=1.0, offset=(0.0, 0.0, 0.0), symm
 
 
 @takes(settings="plan", lengths="gripper")
-def pick(found, grasps, scan=None, gripper="jaws", bin="detected", robot_frame=None, camera=None, scale=1.0, *, settings, lengths):
+def pick(found, grasps, scan=None, gripper=None, bin="detected", robot_frame=None, camera=None, scale=1.0, *, settings, lengths):
     """Which of the parts that were found a gripper can take, and what is against the others.
 
     found: Detections of detect(), or poses N x 4 x 4. grasps: those of the part, as grasps() returns them, or a list of those of
     each type of part, in the order of detect(), whose copies are all in the way; the gripper has their lengths, unless others
     are given. scan, camera, scale: as detect() takes them; without a scan only the other copies and the bin are in the way.
-    gripper: jaws, cup, or a mesh (as train() takes it) as it stands open in the grasp's frame.
+    gripper: jaws, cup, or a mesh (as train() takes it) as it stands open in the grasp's frame; without one a cup if all grasps
+    are of suction, else jaws.
     bin: detected (by its rim, in the scan), none, or (T, length, width, height, wall): T, 4 x 4, takes the coordinates of the
     bin, whose z goes up from the middle of its floor, to the scan's; mm. robot_frame: a file of OpenCV or ROS with the
     camera in the robot's frame, or its matrix T_robot_camera, 4 x 4, mm. Returns Picks.
@@ -177,6 +178,8 @@ def pick(found, grasps, scan=None, gripper="jaws", bin="detected", robot_frame=N
         if not is_rotation(transforms[:, :3, :3]):
             raise Error("the poses have to be rotations and translations")
     poses = found.core if isinstance(found, Detections) else _core.Detections(transforms)
+    if gripper is None:
+        gripper = "cup" if {kind for each in sets for kind in each.kinds} == {"suction"} else "jaws"
     is_mesh = not (isinstance(gripper, str) and gripper in GRIPPERS)
     mesh = _core.prepare_mesh(inputs.mesh_of(gripper, Chosen("read", {})), 1.0, (0.0, 0.0, 0.0)) if is_mesh else None
     kind = None if is_mesh else GRIPPERS[gripper]

@@ -127,6 +127,34 @@ try:
 finally:
     driver.quit()
 
+# Picks: the gripper stands at the best one at first, and at that of each pose that is selected.
+picks = ppfmeam.pick(found, ppfmeam.grasps(mesh, propose="suction", cup_diameter=6), bin="none")
+check(picks[0].possible and len(found) == 2, f"{picks}")
+picks.save("picks.html")
+driver = browser("use-gl=angle", "use-angle=swiftshader", "enable-unsafe-swiftshader", page="picks.html")
+
+
+def green():
+    red, green, blue = pixels_of(driver.find_element(By.ID, "space")).T
+    return ((green > 1.5 * red) & (green > 1.5 * blue)).mean()
+
+
+try:
+    best = str(picks[0].instance + 1)
+    rows = {row.get_attribute("data-rank"): row for row in driver.find_elements(By.CSS_SELECTOR, "tr.pose")}
+    check(chosen(driver) == [[best], [best]], f"the pose of the best pick is selected: {chosen(driver)}")
+    told, shares = [driver.find_element(By.ID, "detail").text.splitlines()[1]], [green()]
+    for rank in (best, *rows.keys() - {best}):
+        rows[rank].click()
+        told.append(driver.find_element(By.ID, "detail").text.splitlines()[1])
+        shares.append(green())
+    first, nothing, second = shares
+    check(first > nothing + 0.05 and second > nothing + 0.02, f"the green gripper is drawn with a selected pose alone: {shares}")
+    check(told[0].startswith("Pick 1, ") and told[2].startswith("Pick "), f"{told}")
+    check(not driver.get_log("browser"), "no error")
+finally:
+    driver.quit()
+
 # A dataset that was evaluated with poses moved away: the first image, then the chosen one, in a frame.
 dataset("bins", 2)
 with open("none.csv", "w", encoding="utf-8") as file:
